@@ -1,0 +1,31 @@
+/* Skeleton laws: stress from deformation. Arrays in, arrays out; a law is pure. docs/theory.md, "Skeleton models". */
+#ifndef CONSTITUTIVE_CONSTITUTIVE_H
+#define CONSTITUTIVE_CONSTITUTIVE_H
+
+#include "core/param.h"
+
+struct constitutive_model {
+  const char         *name, *source; /* word in the scene; section of docs/theory.md */
+  const struct param *params;
+  size_t              param_size;
+  int                 n_history; /* doubles of history per point */
+  bool                held;      /* never moves: no stress, no mechanical time step limit */
+  /** Stress at the end of the step of n points of one material.
+   *  dF, F [n][9] relative and total deformation gradient (in); stress [n][6] effective Cauchy, Pa, tension positive,
+   *  xx yy zz xy yz xz (in/out); history [n][n_history] (in/out); work [n] plastic work of the step per present volume,
+   *  J/m3 (out; NULL: not wanted). dt s: rate laws need it. Returns how many points it could not update. */
+  int (*update)(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
+                double *work);
+  /** m/s, upper bound over n points from bulk density rb [n] kg/m3 and the present state: it limits dt. */
+  double (*wave_speed)(const void *prm, int n, const double *rb, const double *stress, const double *history);
+  /** J/m3 per present volume, elastic, of n points. */
+  void (*energy)(const void *prm, int n, const double *F, const double *stress, double *energy);
+  /** Pa: constrained (oedometer) modulus at the start, and the ratio of lateral to vertical effective stress at rest. */
+  double (*oedometer_modulus)(const void *prm);
+  double (*lateral_ratio)(const void *prm);
+};
+
+extern const struct constitutive_model *const constitutive_models[];
+const struct constitutive_model *constitutive_find(const char *name);
+
+#endif

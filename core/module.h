@@ -1,0 +1,31 @@
+/* A module: a folder's stages, fields and parameters. All that run/ knows of mpm, coupling, ice, ... */
+#ifndef CORE_MODULE_H
+#define CORE_MODULE_H
+
+#include "core/field.h"
+#include "core/param.h"
+#include "core/stage.h"
+
+struct ledger;
+
+struct module {
+  const char *name;                     /* the folder; for a fluid path also its word in fluid.path */
+  bool        is_fluid_path;
+  bool (*needed)(const struct scene *);
+  const struct param *params;           /* numerics.<name>.*; ends with PARAM_END; may be NULL */
+  size_t              params_size;
+  const struct field *fields;           /* made from fields.def */
+  int                 n_fields;
+  const struct stage *stages;
+  int                 n_stages;
+  size_t              state_size;
+  /** Number of points the module wants in each set, before any field is allocated; NULL: none. */
+  enum status (*count)(const struct scene *, const struct sim *, long n[], int groups[]);
+  /** Fills the initial state; every planned field is allocated and zero. */
+  enum status (*create)(struct sim *, void *state);
+  void (*destroy)(void *state);
+  /** Adds what the module holds now (masses, momenta, energies) to the ledger. */
+  void (*measure)(const struct sim *, struct ledger *);
+};
+
+#endif

@@ -1,0 +1,167 @@
+/* A scene as plain data in SI units: what is there, before anything is planned. Made by run/scene_read.c. */
+#ifndef CORE_SCENE_H
+#define CORE_SCENE_H
+
+#include "core/function.h"
+#include "core/module.h"
+#include "core/param.h"
+#include "core/shape.h"
+
+#include <stdbool.h>
+
+struct constitutive_model;
+struct eos;
+struct drag_law;
+struct reference;
+
+enum { MAX_MODULES = 16, SIDES = 6 };
+/* sides: x_min x_max y_min y_max z_min z_max */
+enum side { X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN, Z_MAX };
+
+struct material {
+  char                             name[NAME_LENGTH];
+  const struct constitutive_model *model;
+  void                            *model_params; /* read by the law's own table: young, poisson, ... */
+  double density;        /* kg/m3, of the grains */
+  double porosity;       /* -, at the start */
+  double permeability;   /* m/s, hydraulic conductivity; 0: not given */
+  double grain_diameter; /* m; 0: not given */
+};
+
+struct solid {
+  char            name[NAME_LENGTH];
+  int             material;
+  struct shape    shape;
+  struct function velocity[3]; /* m/s at the start */
+};
+
+struct fluid {
+  bool                 present;
+  const struct module *path;
+  double               density;      /* kg/m3 at the reference pressure */
+  double               bulk_modulus; /* Pa; INFINITY: incompressible */
+  double               viscosity;    /* Pa s */
+  const struct eos    *eos;
+  void                *eos_params;
+  const struct drag_law *drag;
+  void                *drag_params;
+  struct shape         region;
+  struct function      velocity[3]; /* m/s at the start */
+  struct function      pressure;    /* Pa (gauge) at the start, where the start is not at rest */
+};
+
+/* what a side does to the solid or to the fluid */
+enum side_kind { SIDE_SLIP, SIDE_NO_SLIP, SIDE_SYMMETRY, SIDE_VELOCITY, SIDE_PRESSURE, SIDE_OPEN, SIDE_PERIODIC };
+#define SIDE_WORDS "slip|no_slip|symmetry|velocity|pressure|open|periodic"
+
+struct side_condition {
+  int             kind;
+  struct function velocity[3]; /* m/s, SIDE_VELOCITY */
+  struct function pressure;    /* Pa (gauge), SIDE_PRESSURE */
+};
+
+/* A traction on a surface that rides on the solid: a flat patch (a box with one axis of zero width) or a 2D arc. */
+struct load {
+  char            name[NAME_LENGTH];
+  struct shape    patch;                     /* SHAPE_BOX; or SHAPE_BALL: the arc of that circle inside the grid */
+  struct function traction[3];               /* Pa = N/m2, force on the solid per area */
+  struct function pressure;                  /* Pa, pushes against the outward normal of an arc or patch side */
+};
+
+/* A massless point that moves with the solid. */
+struct tracer {
+  char   name[NAME_LENGTH];
+  double x[3];
+};
+
+enum gauge_kind { GAUGE_POINT, GAUGE_LINE, GAUGE_INTEGRAL, GAUGE_MEAN, GAUGE_TRACER, GAUGE_LOAD };
+#define GAUGE_WORDS "point|line|integral|mean|tracer|load"
+
+struct gauge {
+  char         name[NAME_LENGTH];
+  int          kind;
+  char         of[NAME_LENGTH]; /* output name of a field, with _x _yy ... for a component; or a ledger entry */
+  char         on[NAME_LENGTH]; /* GAUGE_TRACER, GAUGE_LOAD: its name */
+  double       x[3], to[3];     /* m: the point, or the ends of the line */
+  int          n;               /* samples of a line */
+  struct shape region;          /* of integrals and means */
+};
+
+struct reference_use {
+  char                    name[NAME_LENGTH];
+  const struct reference *reference;
+  void                   *params;
+};
+
+/* One number of a run that is compared with a reference. */
+enum metric_measure { MEASURE_RMS, MEASURE_MAX, MEASURE_VALUE, MEASURE_MEAN, MEASURE_FREQUENCY, MEASURE_DECAY };
+#define MEASURE_WORDS "rms|max|value|mean|frequency|decay"
+
+struct metric {
+  char         name[NAME_LENGTH];
+  int          measure;
+  char         field[NAME_LENGTH];    /* of cells or points at one time ... */
+  char         gauge[NAME_LENGTH];    /* ... or of a gauge over a span of time */
+  char         reference[NAME_LENGTH];/* "name.quantity"; empty: the value itself */
+  struct function expected;           /* used when reference is empty */
+  struct shape region;
+  double       at, from, to;          /* s, or in units of the reference's time scale */
+  bool         scaled_time;
+  double       scale;                 /* result is divided by it; 0: by the reference's scale of that quantity */
+  double       offset;                /* added to the gauge before comparing */
+};
+
+enum start_kind { START_AT_REST, START_ZERO };
+enum basis { BASIS_LINEAR, BASIS_GIMP, BASIS_QUADRATIC, BASIS_CUBIC };
+#define BASIS_WORDS "linear|gimp|quadratic|cubic"
+enum transfer { TRANSFER_PIC, TRANSFER_FLIP, TRANSFER_APIC, TRANSFER_AFLIP };
+#define TRANSFER_WORDS "pic|flip|apic|aflip"
+enum stress_timing { STRESS_LAST, STRESS_MUSL };
+enum wall_basis { WALL_MIRRORED, WALL_MODIFIED };
+enum pressure_solver { SOLVER_AUTO, SOLVER_HYPRE, SOLVER_DIRECT };
+
+struct numerics {
+  int    basis, transfer, stress_timing, wall_basis, pressure_solver;
+  double aflip_beta, points_per_cell; /* points per cell: a square or cube number, or nx x ny x nz below */
+  int    points_per_axis[3];          /* 0: from points_per_cell */
+  double dt_factor, dt_max;
+  double theta;
+  double pressure_tolerance; /* of the volume flux per step, relative to the pore volume */
+};
+
+struct output {
+  double interval, gauge_interval; /* s; 0: from time.end */
+  double times[64];
+  int    n_times;
+  double checkpoint_interval; /* s of wall time */
+};
+
+struct scene {
+  char   name[NAME_LENGTH], title[256];
+  int    dim;
+  double min[3], max[3], h;
+  int    cells[3];
+  bool   one_cell[3]; /* the scene gave null: this axis is one cell wide whatever h is */
+  double time_end;
+  struct function gravity[3];
+  int    start; /* enum start_kind */
+  int    seed;
+  int    n_materials, n_solids, n_loads, n_tracers, n_gauges, n_references, n_metrics;
+  struct material      *materials;
+  struct solid         *solids;
+  struct load          *loads;
+  struct tracer        *tracers;
+  struct gauge         *gauges;
+  struct reference_use *references;
+  struct metric        *metrics;
+  struct fluid          fluid;
+  struct side_condition solid_side[SIDES], fluid_side[SIDES];
+  struct numerics       numerics;
+  void                 *module_params[MAX_MODULES]; /* in the order of run/modules.def */
+  struct output         output;
+};
+
+/** Parameters of a module, as its table filled them. */
+const void *scene_module_params(const struct scene *scene, const struct module *module);
+
+#endif
