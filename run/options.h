@@ -1,0 +1,20 @@
+/* What the command line of a verb says. */
+#ifndef RUN_OPTIONS_H
+#define RUN_OPTIONS_H
+
+#include <stdbool.h>
+
+enum { MAX_SETS = 64 };
+
+struct run_options {
+  const char *argument; /* SCENE of run, check, explain, compare; DIR of resume, plot; FILE of info; NAME of new */
+  const char *fluid;    /* --fluid: a path, or A,B,... for compare; NULL: the scene's */
+  const char *out;      /* --out; NULL: out/<scene>-<path> */
+  int         threads;  /* --threads; 0: all */
+  double      until;    /* --until, s; INFINITY: time.end of the scene */
+  bool        quick, time, quiet, force, markdown;
+  int         n_sets; /* --set key.path=value, in order */
+  const char *sets[MAX_SETS];
+};
+
+#endif
