@@ -10,15 +10,21 @@ struct drag_medium {
   const double *slip;         /* m/s, |U_s - U_f|, pore velocity */
   const double *permeability; /* m2, intrinsic, as given by the scene; 0: not given */
   const double *diameter;     /* m; 0: not given */
-  double        density, viscosity; /* of the fluid, kg/m3, Pa s */
+  double        density, viscosity; /* of the fluid, kg/m3, Pa s, positive */
 };
+
+/** Porosity that a law divides by: a medium without pores resists very much, not infinitely. */
+static inline double drag_porosity(const struct drag_medium *m, int i)
+{
+  return fmin(fmax(m->porosity[i], 1e-6), 1.0);
+}
 
 struct drag_law {
   const char         *name, *source;
   const struct param *params;
   size_t              param_size;
   bool                needs_permeability, needs_diameter;
-  /** K [n] kg/m3/s: force on the fluid per volume of medium = K (U_s - U_f). */
+  /** K [n] kg/m3/s: force on the fluid per volume of medium = K (U_s - U_f). 0 where what the law needs is not given. */
   void (*coefficient)(const void *prm, int n, const struct drag_medium *m, double *K);
 };
 

@@ -8,6 +8,7 @@ struct eos {
   const char         *name, *source;
   const struct param *params;
   size_t              param_size;
+  /* T NULL: the reference temperature everywhere (runs without energy). */
   /** P [n] Pa, compression positive, gauge where the law's reference pressure is zero; from rho [n] kg/m3 and T [n] K. */
   void (*pressure)(const void *prm, int n, const double *rho, const double *T, double *P);
   /** rho [n] kg/m3 from P [n] Pa and T [n] K. */
