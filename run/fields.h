@@ -8,10 +8,11 @@
 
 /* A field where it lives now. */
 struct field_view {
-  const struct field *field;
-  double             *data; /* [n][components]; faces [dim][n][components] */
-  int                 components;
-  long                n; /* entries: points, markers, or grid.size with ghosts */
+  const struct module *module;
+  const struct field  *field;
+  double              *data; /* [n][components]; faces [dim][n][components] */
+  int                  components;
+  long                 n; /* entries: points, markers, or grid.size with ghosts */
 };
 
 /** Fields of all planned modules, one after the other; *cursor starts at 0. false: no more. Fields that the plan does
@@ -29,6 +30,8 @@ bool fields_named(const struct sim *sim, const char *name, struct field_view *vi
  *  the unknown word and lists what there is. */
 enum status fields_component(const struct sim *sim, const char *of, struct field_view *view, int *component) MUST_CHECK;
 
+/** Name of the written set: cells, solid, water; NULL for places that are not written. */
+const char *fields_set(enum where at);
 /** Suffix of a component, "x", "yy", "3"; "" for a scalar. */
 const char *fields_suffix(const struct field *f, int dim, int component);
 
