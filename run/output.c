@@ -22,7 +22,7 @@ struct mesh {
   unsigned char *types;                        /* [n_cells] */
 };
 
-struct output {
+struct output_writer {
   char        folder[PATH_LENGTH];
   long        count, capacity;
   double     *times;   /* [capacity] s, of the snapshots written */
@@ -150,7 +150,7 @@ static long largest_field(const struct sim *sim)
 
 /* ---- creation ---- */
 
-static enum status create_in(const struct sim *sim, const char *folder, struct output *o)
+static enum status create_in(const struct sim *sim, const char *folder, struct output_writer *o)
 {
   const struct scene *scene = sim->scene;
   snprintf(o->folder, sizeof o->folder, "%s", folder);
@@ -162,7 +162,7 @@ static enum status create_in(const struct sim *sim, const char *folder, struct o
   return mesh_of_points(sim->points[SET_WATER], &o->mesh[2]);
 }
 
-enum status output_create(const struct sim *sim, const char *folder, struct output **output)
+enum status output_create(const struct sim *sim, const char *folder, struct output_writer **output)
 {
   TRY(NEW(output, 1));
   enum status s = create_in(sim, folder, *output);
@@ -170,9 +170,9 @@ enum status output_create(const struct sim *sim, const char *folder, struct outp
   return s;
 }
 
-void output_destroy(struct output **output)
+void output_destroy(struct output_writer **output)
 {
-  struct output *o = *output;
+  struct output_writer *o = *output;
   if (!o) return;
   for (int i = 0; i < 3; i++) mesh_destroy(&o->mesh[i]);
   memory_free(&o->times);
@@ -180,11 +180,11 @@ void output_destroy(struct output **output)
   memory_free(output);
 }
 
-long output_count(const struct output *output) { return output->count; }
+long output_count(const struct output_writer *output) { return output->count; }
 
 /* ---- one snapshot ---- */
 
-static enum status snapshot_path(const struct output *o, enum where at, long number, char path[PATH_LENGTH])
+static enum status snapshot_path(const struct output_writer *o, enum where at, long number, char path[PATH_LENGTH])
 {
   char name[64];
   snprintf(name, sizeof name, "fields.%s.%05ld.hdf", fields_set(at), number);
@@ -216,7 +216,8 @@ static enum status write_mesh(struct h5 *h, const struct mesh *m)
   return h5_write(h, "VTKHDF/Types", H5_BYTE, m->n_cells, 0, m->types);
 }
 
-static enum status write_field(const struct output *o, struct h5 *h, const struct grid *g, const struct field_view *v)
+static enum status write_field(const struct output_writer *o, struct h5 *h, const struct grid *g,
+                               const struct field_view *v)
 {
   char       name[2 * NAME_LENGTH];
   const int  n = padded_components(v->field);
@@ -246,7 +247,7 @@ static enum status place_points(const struct sim *sim, enum where at, const stru
   return OK;
 }
 
-static enum status write_set(struct output *o, const struct sim *sim, struct h5 *h, int set)
+static enum status write_set(struct output_writer *o, const struct sim *sim, struct h5 *h, int set)
 {
   const struct points *p =
       written[set] == AT_CELL ? NULL : sim->points[written[set] == AT_SOLID ? SET_SOLID : SET_WATER];
@@ -260,7 +261,7 @@ static enum status write_set(struct output *o, const struct sim *sim, struct h5 
   return OK;
 }
 
-static enum status write_file(struct output *o, const struct sim *sim, int set)
+static enum status write_file(struct output_writer *o, const struct sim *sim, int set)
 {
   char      path[PATH_LENGTH];
   struct h5 h;
@@ -274,7 +275,7 @@ static enum status write_file(struct output *o, const struct sim *sim, int set)
 
 /* ---- the series of snapshots ---- */
 
-static void print_series(const struct output *o, enum where at, FILE *file)
+static void print_series(const struct output_writer *o, enum where at, FILE *file)
 {
   fprintf(file, "{\"file-series-version\": \"1.0\", \"files\": [");
   for (long i = 0; i < o->count; i++)
@@ -283,7 +284,7 @@ static void print_series(const struct output *o, enum where at, FILE *file)
   fprintf(file, "\n]}\n");
 }
 
-static enum status write_series(const struct output *o, enum where at)
+static enum status write_series(const struct output_writer *o, enum where at)
 {
   char name[64], path[PATH_LENGTH], made[PATH_LENGTH + 4];
   snprintf(name, sizeof name, "fields.%s.hdf.series", fields_set(at));
@@ -298,7 +299,7 @@ static enum status write_series(const struct output *o, enum where at)
 }
 
 /* Snapshots of an earlier run from `number` on would be taken for ours. */
-static enum status forget_from(const struct output *o, long number)
+static enum status forget_from(const struct output_writer *o, long number)
 {
   char path[PATH_LENGTH];
   for (int set = 0; set < 3; set++)
@@ -309,7 +310,7 @@ static enum status forget_from(const struct output *o, long number)
   return OK;
 }
 
-static enum status remember_time(struct output *o, double t)
+static enum status remember_time(struct output_writer *o, double t)
 {
   double *more;
   if (o->count == o->capacity) {
@@ -323,7 +324,7 @@ static enum status remember_time(struct output *o, double t)
   return OK;
 }
 
-enum status output_write(struct output *output, const struct sim *sim)
+enum status output_write(struct output_writer *output, const struct sim *sim)
 {
   if (output->count == 0) TRY(forget_from(output, 0));
   for (int set = 0; set < 3; set++)
@@ -334,7 +335,7 @@ enum status output_write(struct output *output, const struct sim *sim)
   return OK;
 }
 
-static enum status read_time(const struct output *o, long number, double *t)
+static enum status read_time(const struct output_writer *o, long number, double *t)
 {
   char      path[PATH_LENGTH];
   struct h5 h;
@@ -345,7 +346,7 @@ static enum status read_time(const struct output *o, long number, double *t)
   return s;
 }
 
-enum status output_resume(struct output *output, long count)
+enum status output_resume(struct output_writer *output, long count)
 {
   double t;
   output->count = 0;
