@@ -10,12 +10,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum status files_path(const char *folder, const char *name, char path[PATH_LENGTH])
+enum status files_path(const char *folder, const char *name, char path[LONGEST_PATH])
 {
   /* room for the ".tmp" of a file in the making */
-  if (snprintf(path, PATH_LENGTH, "%s/%s", folder, name) >= PATH_LENGTH - 4)
+  if (snprintf(path, LONGEST_PATH, "%s/%s", folder, name) >= LONGEST_PATH - 4)
     return FAIL(ERR_INPUT, "%.40s...: the path is longer than %d characters; choose a shorter output folder", folder,
-                PATH_LENGTH - 5);
+                LONGEST_PATH - 5);
   return OK;
 }
 
@@ -55,7 +55,7 @@ static enum status write_failed(const char *path)
 
 enum status files_commit(const char *path)
 {
-  char made[PATH_LENGTH];
+  char made[LONGEST_PATH];
   snprintf(made, sizeof made, "%s.tmp", path);
   int fd = open(made, O_RDONLY);
   if (fd < 0) return write_failed(path);
@@ -67,7 +67,7 @@ enum status files_commit(const char *path)
 
 enum status files_replace(const char *path, const char *text, size_t n)
 {
-  char made[PATH_LENGTH];
+  char made[LONGEST_PATH];
   snprintf(made, sizeof made, "%s.tmp", path);
   FILE *file = fopen(made, "wb");
   if (!file) return write_failed(path);

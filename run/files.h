@@ -6,10 +6,10 @@
 
 #include <stddef.h>
 
-enum { PATH_LENGTH = 1024 };
+enum { LONGEST_PATH = 1024 };
 
 /** folder/name into path. ERR_INPUT: too long. */
-enum status files_path(const char *folder, const char *name, char path[PATH_LENGTH]) MUST_CHECK;
+enum status files_path(const char *folder, const char *name, char path[LONGEST_PATH]) MUST_CHECK;
 /** The whole file, with a 0 after it; memory_free it. ERR_INPUT: not readable, or longer than limit bytes. */
 enum status files_read(const char *path, size_t limit, char **text, size_t *n) MUST_CHECK;
 /** Writes path.tmp, brings it to the disk and renames it: the file is the old one or the new one, never a part. */

@@ -42,14 +42,14 @@ static hid_t access_properties(void)
   return access;
 }
 
-static void name_of_made(const struct h5 *h, char made[PATH_LENGTH + 4])
+static void name_of_made(const struct h5 *h, char made[LONGEST_PATH + 4])
 {
-  snprintf(made, PATH_LENGTH + 4, "%s.tmp", h->path);
+  snprintf(made, LONGEST_PATH + 4, "%s.tmp", h->path);
 }
 
 enum status h5_create(const char *path, struct h5 *h)
 {
-  char  made[PATH_LENGTH + 4];
+  char  made[LONGEST_PATH + 4];
   hid_t access = access_properties();
   snprintf(h->path, sizeof h->path, "%s", path);
   name_of_made(h, made);
@@ -72,7 +72,7 @@ enum status h5_commit(struct h5 *h)
 
 void h5_abandon(struct h5 *h)
 {
-  char made[PATH_LENGTH + 4];
+  char made[LONGEST_PATH + 4];
   h5_close(h);
   name_of_made(h, made);
   unlink(made);

@@ -10,7 +10,7 @@
 /* An open file; one that is being made is called path.tmp until h5_commit. */
 struct h5 {
   long long file;
-  char      path[PATH_LENGTH];
+  char      path[LONGEST_PATH];
 };
 
 enum h5_type { H5_DOUBLE, H5_LONG, H5_BYTE };

@@ -23,7 +23,7 @@ struct mesh {
 };
 
 struct output_writer {
-  char        folder[PATH_LENGTH];
+  char        folder[LONGEST_PATH];
   long        count, capacity;
   double     *times;   /* [capacity] s, of the snapshots written */
   double     *values;  /* [largest set][PADDED], one field made ready */
@@ -184,7 +184,7 @@ long output_count(const struct output_writer *output) { return output->count; }
 
 /* ---- one snapshot ---- */
 
-static enum status snapshot_path(const struct output_writer *o, enum where at, long number, char path[PATH_LENGTH])
+static enum status snapshot_path(const struct output_writer *o, enum where at, long number, char path[LONGEST_PATH])
 {
   char name[64];
   snprintf(name, sizeof name, "fields.%s.%05ld.hdf", fields_set(at), number);
@@ -263,7 +263,7 @@ static enum status write_set(struct output_writer *o, const struct sim *sim, str
 
 static enum status write_file(struct output_writer *o, const struct sim *sim, int set)
 {
-  char      path[PATH_LENGTH];
+  char      path[LONGEST_PATH];
   struct h5 h;
   TRY(snapshot_path(o, written[set], o->count, path));
   TRY(h5_create(path, &h));
@@ -286,7 +286,7 @@ static void print_series(const struct output_writer *o, enum where at, FILE *fil
 
 static enum status write_series(const struct output_writer *o, enum where at)
 {
-  char name[64], path[PATH_LENGTH], made[PATH_LENGTH + 4];
+  char name[64], path[LONGEST_PATH], made[LONGEST_PATH + 4];
   snprintf(name, sizeof name, "fields.%s.hdf.series", fields_set(at));
   TRY(files_path(o->folder, name, path));
   snprintf(made, sizeof made, "%s.tmp", path);
@@ -301,7 +301,7 @@ static enum status write_series(const struct output_writer *o, enum where at)
 /* Snapshots of an earlier run from `number` on would be taken for ours. */
 static enum status forget_from(const struct output_writer *o, long number)
 {
-  char path[PATH_LENGTH];
+  char path[LONGEST_PATH];
   for (int set = 0; set < 3; set++)
     for (long i = number;; i++) {
       TRY(snapshot_path(o, written[set], i, path));
@@ -337,7 +337,7 @@ enum status output_write(struct output_writer *output, const struct sim *sim)
 
 static enum status read_time(const struct output_writer *o, long number, double *t)
 {
-  char      path[PATH_LENGTH];
+  char      path[LONGEST_PATH];
   struct h5 h;
   TRY(snapshot_path(o, written[0], number, path));
   TRY(h5_open(path, &h));
