@@ -1,0 +1,65 @@
+/* Linear elasticity in rate form: the co-rotated stress grows by lambda tr(e) I + 2 mu e with the logarithmic strain e
+ * of the step. In one dimension: stress = E_oed ln J. */
+#include "constitutive/corotate.h"
+#include "constitutive/isotropic.h"
+
+static const struct param params[] = {ISOTROPIC_PARAMS(struct isotropic), PARAM_END};
+
+static inline void answer(const void *prm, struct corotate_group *g)
+{
+  double lambda = isotropic_lambda(prm), twice_mu = 2.0 * isotropic_shear(prm);
+  for (int i = 0; i < LANES; i++) {
+    double volume = lambda * (g->strain[XX][i] + g->strain[YY][i] + g->strain[ZZ][i]);
+    for (int k = 0; k < 3; k++) g->stress[k][i] += volume + twice_mu * g->strain[k][i];
+    for (int k = 3; k < 6; k++) g->stress[k][i] += twice_mu * g->strain[k][i];
+  }
+}
+
+static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
+                  double *work)
+{
+  (void)dt, (void)F, (void)history;
+  if (work) memset(work, 0, (size_t)n * sizeof *work);
+  return corotate_update(prm, n, dF, stress, answer);
+}
+
+/* The acoustic tensor of a Cauchy stress that turns with the material: longitudinal E_oed, shear mu + (s_N - s_m)/2;
+ * with 2 (s_1 - s_3)^2 <= 4 dev:dev the sum below bounds both. */
+static double wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history)
+{
+  double modulus = isotropic_oedometer(prm), largest = 0.0;
+  (void)history;
+  for (int p = 0; p < n; p++) {
+    const double *s = &stress[6L * p];
+    double        a = s[XX] - s[YY], b = s[YY] - s[ZZ], c = s[ZZ] - s[XX];
+    double        dev = (a * a + b * b + c * c) / 3.0 + 2.0 * (s[XY] * s[XY] + s[YZ] * s[YZ] + s[XZ] * s[XZ]);
+    largest = fmax(largest, (modulus + sqrt(0.5 * dev)) / rb[p]);
+  }
+  return sqrt(largest);
+}
+
+/* s:s (1 + nu) - nu tr(s)^2 over 2 E */
+static void energy(const void *prm, int n, const double *F, const double *stress, double *energy)
+{
+  const struct isotropic *e = prm;
+  (void)F;
+  for (int p = 0; p < n; p++) {
+    const double *s = &stress[6L * p];
+    double        trace = s[XX] + s[YY] + s[ZZ];
+    double        square =
+        s[XX] * s[XX] + s[YY] * s[YY] + s[ZZ] * s[ZZ] + 2.0 * (s[XY] * s[XY] + s[YZ] * s[YZ] + s[XZ] * s[XZ]);
+    energy[p] = ((1.0 + e->poisson) * square - e->poisson * trace * trace) / (2.0 * e->young);
+  }
+}
+
+const struct constitutive_model constitutive_linear_elastic = {
+    .name = "linear_elastic",
+    .source = "1, Skeleton models",
+    .params = params,
+    .param_size = sizeof(struct isotropic),
+    .update = update,
+    .wave_speed = wave_speed,
+    .energy = energy,
+    .oedometer_modulus = isotropic_oedometer,
+    .lateral_ratio = isotropic_lateral,
+};
