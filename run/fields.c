@@ -39,6 +39,13 @@ bool fields_next(const struct sim *sim, int *cursor, struct field_view *view)
   return false;
 }
 
+void fields_refresh(const struct sim *sim, struct field_view *view)
+{
+  for (int m = 0; m < sim->n_modules; m++)
+    if (sim->modules[m] == view->module) view->data = data_of(sim, m, view->field);
+  view->n = entries(sim, view->field->at);
+}
+
 long fields_length(const struct sim *sim, const struct field_view *view)
 {
   return view->n * view->components * (view->field->at == AT_FACE ? sim->grid.dim : 1);

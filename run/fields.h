@@ -18,6 +18,8 @@ struct field_view {
 /** Fields of all planned modules, one after the other; *cursor starts at 0. false: no more. Fields that the plan does
  *  not hold (NULL pointer) are passed over. */
 bool fields_next(const struct sim *sim, int *cursor, struct field_view *view);
+/** Looks again where the field lives and how many entries it has: points come and go. */
+void fields_refresh(const struct sim *sim, struct field_view *view);
 /** Doubles in the field. */
 long fields_length(const struct sim *sim, const struct field_view *view);
 /** Positions of a point set: x_p of the solid, the first x_* with VECTOR components of the water. */

@@ -93,9 +93,9 @@ static void add_metrics(cJSON *root, const struct run_record *r)
 
 enum status summary_write(const char *folder, const struct run_record *record)
 {
-  char   path[LONGEST_PATH];
-  cJSON *root = cJSON_CreateObject();
+  char path[LONGEST_PATH];
   TRY(files_path(folder, "summary.json", path));
+  cJSON *root = cJSON_CreateObject();
   add_what(root, record);
   add_dt(root, record);
   add_cost(root, record);
