@@ -3,19 +3,18 @@
 #define RUN_SCENE_READ_H
 
 #include "core/scene.h"
+#include "run/files.h"
 #include "run/options.h"
 
 struct cJSON;
 
-enum { PATH_LENGTH = 1024 };
-
 struct loaded_scene {
-  struct scene  scene;             /* scene.name: "terzaghi_column" or "terzaghi_column+ramp1ms" */
-  struct cJSON *json;              /* overrides applied, every default filled in; no variants, quick, paths */
-  char          file[PATH_LENGTH]; /* the scene file */
-  char          path[NAME_LENGTH]; /* fluid path, "solid" for a scene without fluid */
-  char          variant[256];      /* key of expected.json: "base", "quick", "ramp1ms", "ramp1ms+quick" */
-  struct cJSON *expected;          /* of this variant and path; NULL: nothing expected */
+  struct scene  scene;              /* scene.name: "terzaghi_column" or "terzaghi_column+ramp1ms" */
+  struct cJSON *json;               /* overrides applied, every default filled in; no variants, quick, paths */
+  char          file[LONGEST_PATH]; /* the scene file */
+  char          path[NAME_LENGTH];  /* fluid path, "solid" for a scene without fluid */
+  char          variant[256];       /* key of expected.json: "base", "quick", "ramp1ms", "ramp1ms+quick" */
+  struct cJSON *expected;           /* of this variant and path; NULL: nothing expected */
 };
 
 /** Reads options->argument (a file, or the name of a shipped case; with +variant...) and applies, in this order:
