@@ -94,8 +94,13 @@ struct reference_use {
 };
 
 /* One number of a run that is compared with a reference. */
-enum metric_measure { MEASURE_RMS, MEASURE_MAX, MEASURE_VALUE, MEASURE_MEAN, MEASURE_FREQUENCY, MEASURE_DECAY };
-#define MEASURE_WORDS "rms|max|value|mean|frequency|decay"
+enum metric_measure {
+  MEASURE_RMS, MEASURE_MAX, MEASURE_VALUE, MEASURE_MEAN,
+  MEASURE_FREQUENCY, MEASURE_DECAY, /* Hz, 1/s: of the damped oscillation of a gauge */
+  MEASURE_DRIFT,                    /* largest departure of a gauge from its first value in the span, over that value */
+  MEASURE_ROUGHNESS                 /* standard deviation of h2 times the Laplacian of a cell field */
+};
+#define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|roughness"
 
 struct metric {
   char         name[NAME_LENGTH];
