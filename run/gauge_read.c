@@ -175,7 +175,27 @@ static double read_displacement(const struct gauge_reader *r, const struct sim *
   return sum / (double)(r->end - r->first);
 }
 
+/* of the markers from gauge->x */
+static double read_distance(const struct gauge_reader *r, const struct sim *sim)
+{
+  double sum = 0;
+  for (long i = r->first; i < r->end; i++) {
+    double r2 = 0;
+    for (int d = 0; d < sim->grid.dim; d++) r2 += pow(r->view.data[i * r->view.components + d] - r->x[d], 2);
+    sum += sqrt(r2);
+  }
+  return sum / (double)(r->end - r->first);
+}
+
 static double read_ledger(const struct gauge_reader *r, const struct sim *sim) { return sim->ledger.v[r->ledger]; }
+
+static double read_energy(const struct gauge_reader *r, const struct sim *sim)
+{
+  const double *v = sim->ledger.v;
+  (void)r;
+  return v[LEDGER_kinetic_solid] + v[LEDGER_kinetic_fluid] + v[LEDGER_potential] + v[LEDGER_elastic] +
+         v[LEDGER_compression];
+}
 
 double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim)
 {
@@ -185,7 +205,10 @@ double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim)
   return reader->read(reader, sim);
 }
 
-bool gauge_reader_needs_ledger(const struct gauge_reader *reader) { return reader->read == read_ledger; }
+bool gauge_reader_needs_ledger(const struct gauge_reader *reader)
+{
+  return reader->read == read_ledger || reader->read == read_energy;
+}
 
 /* ---- from the scene's gauge to a reader ---- */
 
@@ -276,16 +299,18 @@ static bool marker_quantity(const char *of, int dim, int *component, bool *displ
 static enum status create_marker(const struct sim *sim, const struct gauge *gauge, const struct marker_finder *markers,
                                  struct gauge_reader *r)
 {
-  bool displacement;
-  if (!marker_quantity(gauge->of, sim->grid.dim, &r->component, &displacement))
-    return FAIL(ERR_INPUT, "gauges.%s.of: \"%s\" is not known of a load or tracer; say displacement_x or position_x",
+  bool displacement = false, distance = strcmp(gauge->of, "distance") == 0;
+  if (!distance && !marker_quantity(gauge->of, sim->grid.dim, &r->component, &displacement))
+    return FAIL(ERR_INPUT,
+                "gauges.%s.of: \"%s\" is not known of a load or tracer; say displacement_x, position_x or distance",
                 gauge->name, gauge->of);
   if (!fields_named(sim, "x_m", &r->view) || !fields_named(sim, "x0_m", &r->start))
     return FAIL(ERR_INPUT, "gauges.%s: nothing in this scene moves markers; add a solid", gauge->name);
   markers->range(sim, gauge->on, &r->first, &r->end);
   if (r->first >= r->end)
     return FAIL(ERR_INPUT, "gauges.%s.on: there is no load or tracer \"%s\"", gauge->name, gauge->on);
-  r->read = displacement ? read_displacement : read_position;
+  r->read = distance ? read_distance : displacement ? read_displacement : read_position;
+  memcpy(r->x, gauge->x, sizeof r->x);
   snprintf(r->unit, sizeof r->unit, "m");
   return OK;
 }
@@ -295,16 +320,17 @@ int gauge_columns(const struct gauge *gauge) { return gauge->kind == GAUGE_LINE 
 enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge, int sample,
                                 const struct marker_finder *markers, struct gauge_reader *reader)
 {
-  const char *unit;
+  const bool  energy = gauge->kind == GAUGE_INTEGRAL && strcmp(gauge->of, "energy") == 0;
+  const char *unit = "J";
   memset(reader, 0, sizeof *reader);
   snprintf(reader->name, sizeof reader->name, "%s", gauge->name);
   if (gauge->kind == GAUGE_LINE) snprintf(reader->name, sizeof reader->name, "%s.%d", gauge->name, sample);
   if (gauge->kind == GAUGE_POINT || gauge->kind == GAUGE_LINE) return create_point(sim, gauge, sample, reader);
   if (gauge->kind == GAUGE_TRACER || gauge->kind == GAUGE_LOAD) return create_marker(sim, gauge, markers, reader);
   reader->ledger = gauge->kind == GAUGE_INTEGRAL ? find_ledger(gauge->of, &unit) : -1;
-  if (reader->ledger < 0) return create_region(sim, gauge, reader);
+  if (reader->ledger < 0 && !energy) return create_region(sim, gauge, reader);
   snprintf(reader->unit, sizeof reader->unit, "%s", unit);
-  reader->read = read_ledger;
+  reader->read = energy ? read_energy : read_ledger;
   return OK;
 }
 
