@@ -80,9 +80,9 @@ enum gauge_kind { GAUGE_POINT, GAUGE_LINE, GAUGE_INTEGRAL, GAUGE_MEAN, GAUGE_TRA
 struct gauge {
   char         name[NAME_LENGTH];
   int          kind;
-  char         of[NAME_LENGTH]; /* output name of a field, with _x _yy ... for a component; or a ledger entry */
+  char         of[NAME_LENGTH]; /* output name of a field, with _x _yy ... for a component; or a ledger entry, or energy */
   char         on[NAME_LENGTH]; /* GAUGE_TRACER, GAUGE_LOAD: its name */
-  double       x[3], to[3];     /* m: the point, or the ends of the line */
+  double       x[3], to[3];     /* m: the point, the ends of the line, or where a tracer's distance is taken from */
   int          n;               /* samples of a line */
   struct shape region;          /* of integrals and means */
 };
