@@ -19,8 +19,8 @@ struct module {
   const struct stage *stages;
   int                 n_stages;
   size_t              state_size;
-  /** Number of points the module wants in each set, before any field is allocated; NULL: none. */
-  enum status (*count)(const struct scene *, const struct sim *, long n[], int groups[]);
+  /** Number of points the module wants in each set, n [N_COUNTS], and their groups [N_SETS]; NULL: none. */
+  enum status (*count)(const struct scene *, long n[], int groups[]);
   /** Fills the initial state; every planned field is allocated and zero. */
   enum status (*create)(struct sim *, void *state);
   void (*destroy)(void *state);

@@ -6,7 +6,8 @@
 #include "core/grid.h"
 #include "core/status.h"
 
-enum point_set { SET_SOLID, SET_WATER, N_SETS };
+/* the last entry of a count is not a sorted set: markers are few */
+enum point_set { SET_SOLID, SET_WATER, N_SETS, COUNT_MARKERS = N_SETS, N_COUNTS };
 
 /* Cells per block edge. A point may wander one cell out of its block before the set is sorted again; blocks of one
  * colour (every second one along each axis) then still write to different nodes. */
@@ -20,7 +21,7 @@ struct points {
   long           n_blocks, n_runs; /* run = (block, group) */
   long          *start;            /* [n_runs + 1]: run r = block*n_groups + group holds points [start[r], start[r+1]) */
   /* scratch of the sort */
-  long  *order, *count;
+  long  *order, *key, *count;
   double *shelf;
 };
 

@@ -1,0 +1,5 @@
+#define DIM 2
+#define BASIS gimp
+#define BASIS_ENUM BASIS_GIMP
+#define IS_GIMP
+#include "mpm/kernels/kernels.tmpl.h"

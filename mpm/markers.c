@@ -1,0 +1,58 @@
+/* Markers: points of loaded surfaces and tracers, which ride on the solid's nodal velocity. theory 3.3 */
+#include "mpm/stages.h"
+
+#include <string.h>
+
+/* force on the solid at marker i: traction, and pressure against the outward normal; N */
+static void marker_force(const struct sim *sim, const struct mpm *m, const struct load *load, long i, double t, double force[3])
+{
+  double x[3] = {0};
+  memcpy(x, m->x_m + i * sim->grid.dim, (size_t)sim->grid.dim * sizeof *x);
+  double p = function_value(&load->pressure, x, t);
+  for (int d = 0; d < sim->grid.dim; d++)
+    force[d] = m->marker_area[i] * (function_value(&load->traction[d], x, t) - p * m->marker_normal[i][d]);
+}
+
+/* velocity of the solid at a marker */
+static void marker_velocity(const struct sim *sim, const struct mpm *m, long i, double vel[3])
+{
+  long   node[MAX_SUPPORT];
+  double w[MAX_SUPPORT];
+  int    dim = sim->grid.dim;
+  m->kernels->weights(&m->kernel_grid, m->x_m + i * dim, node, w, NULL);
+  memset(vel, 0, 3 * sizeof *vel);
+  for (int q = 0; q < m->kernels->n_support; q++)
+    for (int d = 0; d < dim; d++) vel[d] += w[q] * m->vel_new_nc[node[q] * dim + d];
+}
+
+enum status mpm_load_surfaces(struct sim *sim, double dt)
+{
+  struct mpm *m = mpm_of(sim);
+  int         dim = sim->grid.dim;
+  for (int k = 0; k < sim->scene->n_loads; k++)
+    for (long i = k ? m->marker_end[k - 1] : 0; i < m->marker_end[k]; i++) {
+      long   node[MAX_SUPPORT];
+      double w[MAX_SUPPORT], force[3];
+      m->kernels->weights(&m->kernel_grid, m->x_m + i * dim, node, w, NULL);
+      marker_force(sim, m, &sim->scene->loads[k], i, sim->t + 0.5 * dt, force);
+      for (int q = 0; q < m->kernels->n_support; q++)
+        for (int d = 0; d < dim; d++) m->force_nc[node[q] * dim + d] += w[q] * force[d];
+    }
+  return OK;
+}
+
+void mpm_move_markers(struct sim *sim, struct mpm *m, double dt)
+{
+  const struct scene *scene = sim->scene;
+  int                 dim = sim->grid.dim;
+  for (int k = 0; k < scene->n_loads + scene->n_tracers; k++)
+    for (long i = k ? m->marker_end[k - 1] : 0; i < m->marker_end[k]; i++) {
+      double vel[3], force[3] = {0};
+      marker_velocity(sim, m, i, vel);
+      if (k < scene->n_loads) marker_force(sim, m, &scene->loads[k], i, sim->t + 0.5 * dt, force);
+      for (int d = 0; d < dim; d++) {
+        m->x_m[i * dim + d] += dt * vel[d];
+        m->work_loads += dt * vel[d] * force[d];
+      }
+    }
+}

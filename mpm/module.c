@@ -1,0 +1,144 @@
+/* The solid as material points: its stages, when each is needed, its fields. Read this first. */
+#include "mpm/create.h"
+#include "mpm/stages.h"
+
+#include "constitutive/constitutive.h"
+#include "core/memory.h"
+
+bool mpm_solid_moves(const struct scene *scene)
+{
+  for (int s = 0; s < scene->n_solids; s++)
+    if (!scene->materials[scene->solids[s].material].model->held) return true;
+  return false;
+}
+
+bool mpm_transfer_affine(const struct scene *scene)
+{
+  return scene->numerics.transfer == TRANSFER_APIC || scene->numerics.transfer == TRANSFER_AFLIP;
+}
+
+static bool needed(const struct scene *sc) { return sc->n_solids > 0; }
+static bool moves_affine(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_transfer_affine(sc); }
+static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && !mpm_transfer_affine(sc); }
+static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
+static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers > 0; }
+static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
+static bool musl(const struct scene *sc) { return mpm_solid_moves(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
+
+static const struct field fields[] = {
+#define FIELD(...) FIELD_ROW(struct mpm, __VA_ARGS__)
+#include "mpm/fields.def"
+#undef FIELD
+};
+
+#define POINT_STATE "x_p vel_p mass_p volume_p stress_p"
+
+static const struct stage stages[] = {
+    {"mpm.sort_points", SLOT_sort, "x_p", "x_p", "3.1", "a solid moves", mpm_solid_moves, mpm_sort_points, NULL},
+    {"mpm.points_to_nodes", SLOT_points_to_nodes, POINT_STATE " affine_p", "mass_nc mom_nc force_nc", "3.1",
+     "a solid moves, APIC or AFLIP", moves_affine, mpm_points_to_nodes, NULL},
+    {"mpm.points_to_nodes_plain", SLOT_points_to_nodes, POINT_STATE, "mass_nc mom_nc force_nc", "3.1",
+     "a solid moves, PIC or FLIP", moves_plain, mpm_points_to_nodes, NULL},
+    {"mpm.load_surfaces", SLOT_points_to_nodes, "x_m", "force_nc", "3.3", "the scene has loads", loaded, mpm_load_surfaces, NULL},
+    {"mpm.fold_nodes", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.2", "a solid moves",
+     mpm_solid_moves, mpm_fold_nodes, NULL},
+    {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "a solid moves", mpm_solid_moves,
+     mpm_advance_nodes, NULL},
+    {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p", "3.1",
+     "a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
+    {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
+     "x_p vel_p displacement_p gradv_p x_m", "3.1", "a solid moves, with loads or tracers", marked, mpm_nodes_to_points, NULL},
+    {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p mass_nc", "mom_nc vel_new_nc gradv_p", "3.1",
+     "numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
+    {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3", "a solid moves",
+     mpm_solid_moves, mpm_update_stress, mpm_stress_dt},
+};
+
+static enum status count(const struct scene *scene, long n[], int groups[])
+{
+  n[SET_SOLID] = mpm_place_points(scene, NULL, NULL);
+  n[COUNT_MARKERS] = mpm_count_markers(scene);
+  groups[SET_SOLID] = scene->n_materials;
+  return OK;
+}
+
+static enum status create(struct sim *sim, void *state)
+{
+  struct mpm *m = state;
+  m->points = sim->points[SET_SOLID];
+  m->kernels = kernels_find(sim->grid.dim, sim->scene->numerics.basis);
+  m->moves = mpm_solid_moves(sim->scene);
+  kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
+  TRY(NEW(&m->run_speed, 2 * m->points->n_runs));
+  TRY(mpm_create_points(sim, m));
+  TRY(mpm_create_markers(sim, m));
+  TRY(mpm_sort_now(sim, m));
+  m->mass_floor = INFINITY;
+  for (long p = 0; p < m->points->n; p++) m->mass_floor = fmin(m->mass_floor, 1e-9 * m->mass_p[p]);
+  return m->moves ? mpm_first_speeds(sim, m) : OK;
+}
+
+static void destroy(void *state)
+{
+  struct mpm *m = state;
+  memory_free(&m->run_speed);
+  memory_free(&m->marker_end);
+  memory_free(&m->marker_area);
+  memory_free(&m->marker_normal);
+}
+
+/* momentum, angular momentum (affine part counted) and kinetic energy of point p */
+static void measure_motion(const struct sim *sim, const struct mpm *m, long p, struct ledger *l)
+{
+  int           dim = sim->grid.dim;
+  double        mass = m->mass_p[p], D = m->kernels->moment * sim->grid.h * sim->grid.h, square = 0;
+  const double *v = m->vel_p + p * dim, *x = m->x_p + p * dim;
+  for (int d = 0; d < dim; d++) {
+    l->v[LEDGER_momentum_x + d] += mass * v[d];
+    square += v[d] * v[d];
+  }
+  l->v[LEDGER_angular_z] += mass * (x[0] * v[1] - x[1] * v[0]);
+  if (m->affine_p) {
+    const double *C = m->affine_p + p * dim * dim;
+    l->v[LEDGER_angular_z] += mass * D * (C[dim] - C[1]);
+    for (int q = 0; q < dim * dim; q++) square += D * C[q] * C[q];
+  }
+  l->v[LEDGER_kinetic_solid] += 0.5 * mass * square;
+}
+
+static void measure_point(const struct sim *sim, const struct mpm *m, const double gravity[3], long p, struct ledger *l)
+{
+  const struct material *material = &sim->scene->materials[m->points->group[p]];
+  int                    dim = sim->grid.dim;
+  l->v[LEDGER_mass_solid] += m->mass_p[p];
+  for (int d = 0; d < dim; d++) l->v[LEDGER_potential] -= m->mass_p[p] * gravity[d] * m->x_p[p * dim + d];
+  if (material->model->held) return;
+  double F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, energy = 0;
+  for (int q = 0; q < dim * dim; q++) F[q / dim * 3 + q % dim] = m->F_p[p * dim * dim + q];
+  material->model->energy(material->model_params, 1, F, m->stress_p + 6 * p, &energy);
+  l->v[LEDGER_elastic] += energy * m->volume_p[p];
+  measure_motion(sim, m, p, l);
+}
+
+static void measure(const struct sim *sim, struct ledger *l)
+{
+  const struct mpm *m = mpm_of(sim);
+  double            gravity[3];
+  sim_gravity(sim, sim->t, gravity);
+  for (long p = 0; p < m->points->n; p++) measure_point(sim, m, gravity, p, l);
+  l->v[LEDGER_work_loads] += m->work_loads;
+}
+
+const struct module module_mpm = {
+    .name = "mpm",
+    .needed = needed,
+    .fields = fields,
+    .n_fields = sizeof fields / sizeof *fields,
+    .stages = stages,
+    .n_stages = sizeof stages / sizeof *stages,
+    .state_size = sizeof(struct mpm),
+    .count = count,
+    .create = create,
+    .destroy = destroy,
+    .measure = measure,
+};

@@ -1,0 +1,57 @@
+/* Material points: state of the solid and what other folders may ask of it. */
+#ifndef MPM_MPM_H
+#define MPM_MPM_H
+
+#include "core/sim.h"
+#include "mpm/kernels/kernels.h"
+
+struct mpm {
+#define FIELD FIELD_MEMBER
+#include "mpm/fields.def"
+#undef FIELD
+  struct kernel_grid    kernel_grid;
+  const struct kernels *kernels;
+  struct points        *points;
+  double                mass_floor; /* kg: a node with less has no velocity */
+  double                wave_speed, speed; /* m/s, largest of all points, of the last step */
+  double               *run_speed;         /* [n_runs][2] what they were made of */
+  long                 *marker_end;        /* [loads + tracers] markers of item i end here */
+  double               *marker_area;       /* [markers] m2 (m in 2D); 0: tracer */
+  double              (*marker_normal)[3]; /* outward, for pressure loads */
+  int                   n_markers;
+  double                work_loads;        /* J */
+  bool                  moves;             /* some material is not held */
+};
+
+extern const struct module module_mpm;
+
+static inline struct mpm *mpm_of(const struct sim *sim) { return sim_state(sim, &module_mpm); }
+
+/** Markers [first, end) of a load or tracer; first = end = 0: no such name. */
+void mpm_marker_range(const struct sim *sim, const char *name, long *first, long *end);
+
+/** Number of solid points, and where a solid's point is: fills x [n][3] and body [n] when they are not NULL. */
+long mpm_place_points(const struct scene *scene, double (*x)[3], int *body);
+/** The regular lattice of point places (points_per_axis per cell) clipped to the grid and a shape: used by every set. */
+long mpm_fill_shape(const struct scene *scene, const struct shape *shape, double (*x)[3]);
+/** Bulk volume of one lattice point, m3 (m2 per metre in 2D). */
+double mpm_point_volume(const struct scene *scene);
+
+bool mpm_solid_moves(const struct scene *scene);
+bool mpm_transfer_affine(const struct scene *scene);
+/** Share of the nodal velocity in the update of a point for a step dt, T(30); the blend per step is scaled with dt. */
+double mpm_blend(const struct sim *sim, double dt);
+
+/* mpm/boundary.c: walls on nodal fields. sides: the conditions of the phase that lives there. */
+/** What fell on ghost nodes goes to their images. n = 1: scalar; n = dim: vector, normal component odd at a wall. */
+void boundary_fold(const struct kernel_grid *kg, const struct side_condition *sides, int n, double *field);
+/** Values of ghost nodes from inside; velocity fields get the wall's own velocity at time t. */
+void boundary_ghosts(const struct kernel_grid *kg, const struct side_condition *sides, int n, double t, double *field);
+/** Velocity of nodes on walls: slip, no-slip, prescribed. */
+void boundary_velocity(const struct grid *g, const struct side_condition *sides, double t, double *vel_nc);
+/** Nodes that are advanced: owned ones, and one ghost layer behind open sides. */
+struct box boundary_nodes(const struct grid *g, const struct side_condition *sides);
+/** Volume of a node, the folded integral of its weight over the grid, m3: what it would hold if all space were filled. */
+double boundary_room(const struct kernel_grid *kg, enum basis basis, long node);
+
+#endif

@@ -1,0 +1,98 @@
+/* Points to nodes: mass, momentum, internal force; tractions of loaded surfaces; nodal velocities. theory 3.1 */
+#include "mpm/stages.h"
+
+#include "constitutive/constitutive.h"
+#include "core/parallel.h"
+
+#include <string.h>
+
+enum status mpm_sort_points(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct mpm *m = mpm_of(sim);
+  if (!points_need_sort(&sim->grid, m->points, m->x_p)) return OK;
+  return mpm_sort_now(sim, m);
+}
+
+/* every array of the set follows the new order; scratch of the last step is not needed any more */
+enum status mpm_sort_now(struct sim *sim, struct mpm *m)
+{
+  struct points *p = m->points;
+  int            dim = sim->grid.dim;
+  TRY(points_sort(&sim->grid, p, m->x_p));
+  for (int i = 0; i < module_mpm.n_fields; i++) {
+    const struct field *f = &module_mpm.fields[i];
+    double             *array = *(double **)((char *)m + f->offset);
+    if (f->at == AT_SOLID && f->kind == STATE && array) points_permute(p, field_components(f, dim), array);
+  }
+  points_sorted(p);
+  return OK;
+}
+
+static void clear(const struct grid *g, int n, double *field) { memset(field, 0, (size_t)(g->size * n) * sizeof *field); }
+
+static bool held(const struct sim *sim, int group) { return sim->scene->materials[group].model->held; }
+
+/* gathers momentum, and with `all` also mass and force */
+static void gather_points(struct sim *sim, struct mpm *m, bool all)
+{
+  const struct p2g_args args = {.x = m->x_p,
+                                .vel = m->vel_p,
+                                .affine = m->affine_p,
+                                .mass = m->mass_p,
+                                .volume = m->volume_p,
+                                .stress = all ? m->stress_p : NULL,
+                                .mass_nc = all ? m->mass_nc : NULL,
+                                .mom_nc = m->mom_nc,
+                                .force_nc = all ? m->force_nc : NULL};
+  FOR_RUNS(m->points, &sim->grid, run, group) if (!held(sim, group)) m->kernels->p2g(&m->kernel_grid, &run, &args);
+}
+
+enum status mpm_points_to_nodes(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct mpm *m = mpm_of(sim);
+  int         dim = sim->grid.dim;
+  clear(&sim->grid, 1, m->mass_nc);
+  clear(&sim->grid, dim, m->mom_nc);
+  clear(&sim->grid, dim, m->force_nc);
+  gather_points(sim, m, true);
+  return OK;
+}
+
+/* velocity = momentum / mass where there is enough mass, else zero */
+static void velocities(const struct sim *sim, const struct mpm *m, double *vel_nc)
+{
+  const struct grid *g = &sim->grid;
+  struct box         all = grid_all(g);
+  int                dim = g->dim;
+  FOR_BOX(g, all, c)
+  for (int d = 0; d < dim; d++) vel_nc[c * dim + d] = m->mass_nc[c] > m->mass_floor ? m->mom_nc[c * dim + d] / m->mass_nc[c] : 0;
+  boundary_velocity(g, sim->scene->solid_side, sim->t, vel_nc);
+}
+
+enum status mpm_fold_nodes(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct mpm                  *m = mpm_of(sim);
+  const struct side_condition *sides = sim->scene->solid_side;
+  boundary_fold(&m->kernel_grid, sides, 1, m->mass_nc);
+  boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
+  boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->force_nc);
+  velocities(sim, m, m->vel_nc);
+  return OK;
+}
+
+/* MUSL: the velocity whose gradient strains the points is gathered from their new velocities. Sulsky et al. 1995 */
+enum status mpm_remap_momentum(struct sim *sim, double dt)
+{
+  struct mpm                  *m = mpm_of(sim);
+  const struct side_condition *sides = sim->scene->solid_side;
+  clear(&sim->grid, sim->grid.dim, m->mom_nc);
+  gather_points(sim, m, false);
+  boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
+  velocities(sim, m, m->vel_new_nc);
+  boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, m->vel_new_nc);
+  mpm_gather_gradient(sim, m, m->vel_new_nc);
+  return OK;
+}
