@@ -125,12 +125,12 @@ static void fake_fill_grid(struct fake_run *r)
   }
 }
 
-/* A 6 x 5 (x 4) grid of h = 0.1 from (-0.2, 0.1, 0); solid points in the lower three rows of cells, water everywhere.
+/* A 20 x 5 (x 4) grid of h = 0.1 from (-0.2, 0.1, 0); solid points in the lower three rows of cells, water everywhere.
  */
 static void fake_create(int dim, struct fake_run *r)
 {
   const double min[3] = {-0.2, 0.1, 0};
-  const int    n[3] = {6, 5, 4};
+  const int    n[3] = {20, 5, 4};
   const bool   periodic[3] = {false, false, false};
   memset(r, 0, sizeof *r);
   snprintf(r->folder, sizeof r->folder, "/tmp/mpmice-check-XXXXXX");
@@ -151,8 +151,8 @@ static void fake_create(int dim, struct fake_run *r)
                         .states = r->states};
   grid_create(dim, min, n, 0.1, periodic, &r->sim.grid);
   const long per_cell = dim == 3 ? 8 : 4, layers = r->sim.grid.n[2];
-  fake_ok(points_create(&r->sim.grid, 6 * 3 * layers * per_cell, 2, 9, &r->sim.points[SET_SOLID]));
-  fake_ok(points_create(&r->sim.grid, 6 * 5 * layers * per_cell, 1, 9, &r->sim.points[SET_WATER]));
+  fake_ok(points_create(&r->sim.grid, 20 * 3 * layers * per_cell, 2, 9, &r->sim.points[SET_SOLID]));
+  fake_ok(points_create(&r->sim.grid, 20 * 5 * layers * per_cell, 1, 9, &r->sim.points[SET_WATER]));
   fake_allocate(r);
   for (long p = 0; p < r->sim.points[SET_SOLID]->n; p++) r->sim.points[SET_SOLID]->group[p] = p % 2;
   fake_place(&r->sim.grid, 3, r->state.x_p);

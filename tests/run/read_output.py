@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 FOLDER, DIM = sys.argv[1], int(sys.argv[2])
-CELLS = np.array([6, 5, 4][:DIM])
+CELLS = np.array([20, 5, 4][:DIM])
 TIMES = [0.25, 0.5]
 
 
@@ -50,7 +50,7 @@ def check_points(root, n):
 
 def check_solid(root):
     layers = 4 if DIM == 3 else 1
-    x = check_points(root, 6 * 3 * layers * 2**DIM)
+    x = check_points(root, 20 * 3 * layers * 2**DIM)
     data, f = root["PointData"], linear(x)
     assert set(data) == {"vel", "stress", "gradient", "volume", "group"}, set(data)
     assert np.allclose(data["vel"], padded([f, 2 * f, 3 * f]), rtol=1e-14)
@@ -83,5 +83,5 @@ for name in ("solid", "water", "cells"):
 for number in range(len(TIMES)):
     check_solid(open_set("solid", number))
     water = open_set("water", number)
-    assert np.allclose(water["PointData/P"], linear(check_points(water, 6 * 5 * (4 if DIM == 3 else 1) * 2**DIM)), rtol=1e-14)
+    assert np.allclose(water["PointData/P"], linear(check_points(water, 20 * 5 * (4 if DIM == 3 else 1) * 2**DIM)), rtol=1e-14)
     check_cells(open_set("cells", number))
