@@ -66,7 +66,7 @@ static void mode(const struct column_waves *c, const struct column_matrices *m, 
   for (int i = 0; i < POLES; i++) {
     double complex share = weight(s[i], t, c->ramp) / polynomial(slope, 3, s[i]);
     sum_a += share * (m->r[1] * s[i] * s[i] + m->drag * s[i] + b2s22);
-    sum_w += share * ((1.0 - c->porosity) * m->r[1] * s[i] * s[i] + m->drag * s[i]);
+    sum_w += share * ((1.0 - c->pores.porosity) * m->r[1] * s[i] * s[i] + m->drag * s[i]);
   }
   if (t < c->ramp) {
     sum_a += (m->drag / q[0] - b2s22 * q[1] / (q[0] * q[0])) / c->ramp;
@@ -87,7 +87,7 @@ void column_modes_states(const struct column_waves *c, int n, const double *z, d
     for (int i = 0; i < n; i++) {
       state[i].displacement += force * a * sin(b * z[i]);
       state[i].stress += m.M * force * a * b * cos(b * z[i]);
-      state[i].pressure -= c->bulk_modulus / c->porosity * force * w * b * cos(b * z[i]);
+      state[i].pressure -= c->bulk_modulus / c->pores.porosity * force * w * b * cos(b * z[i]);
     }
   }
 }

@@ -37,9 +37,9 @@ static void shape(double complex lambda, double z, double H, double complex *val
 static void close_top(const struct column_waves *c, const struct column_matrices *m, double complex s,
                       double complex load, struct transform *f)
 {
-  double         g[2] = {1.0 - c->porosity, c->porosity};
+  double         g[2] = {1.0 - c->pores.porosity, c->pores.porosity};
   double complex a[2][2], w[2], Z, det;
-  f->mu = s * sqrt(c->density / c->bulk_modulus);
+  f->mu = s * sqrt(c->pores.density / c->bulk_modulus);
   Z = c->water > 0.0 ? c->bulk_modulus * f->mu * ctanh(f->mu * c->water) : 0.0;
   for (int j = 0; j < 2; j++) {
     double complex value, slope;
@@ -64,9 +64,9 @@ static void evaluate(const struct column_waves *c, const struct column_matrices 
     shape(f->lambda[j], fmin(z, c->height), c->height, &value, &slope);
     u += f->c[j] * f->v[j][0] * value;
     du += f->c[j] * f->v[j][0] * slope;
-    dw += f->c[j] * ((1.0 - c->porosity) * f->v[j][0] + c->porosity * f->v[j][1]) * slope;
+    dw += f->c[j] * ((1.0 - c->pores.porosity) * f->v[j][0] + c->pores.porosity * f->v[j][1]) * slope;
   }
-  out[0] = -c->bulk_modulus / c->porosity * dw;
+  out[0] = -c->bulk_modulus / c->pores.porosity * dw;
   out[1] = u;
   out[2] = m->M * du;
   if (z > c->height) /* sinh(mu (top - z))/sinh(mu water), the pressure falls to 0 at the free surface */

@@ -7,17 +7,11 @@
 static const struct param params[] = {
     {"young", PARAM_NUMBER, offsetof(struct column_waves, young), "Pa", 1e-6, 1e15, NULL, NULL, "Young's modulus"},
     {"poisson", PARAM_NUMBER, offsetof(struct column_waves, poisson), "-", -0.99, 0.499, NULL, NULL, "Poisson's ratio"},
-    {"porosity", PARAM_NUMBER, offsetof(struct column_waves, porosity), "-", 1e-3, 0.999, NULL, NULL, "porosity"},
-    {"permeability", PARAM_NUMBER, offsetof(struct column_waves, permeability), "m/s", 1e-30, 1e3, NULL, NULL,
-     "hydraulic conductivity"},
     {"solid_density", PARAM_NUMBER, offsetof(struct column_waves, solid_density), "kg/m3", 1e-3, 1e5, NULL, NULL,
      "density of the grains"},
     {"bulk_modulus", PARAM_NUMBER, offsetof(struct column_waves, bulk_modulus), "Pa", 1, 1e15, NULL, NULL,
      "bulk modulus of the liquid"},
-    {"density", PARAM_NUMBER, offsetof(struct column_waves, density), "kg/m3", 1e-3, 1e5, "1000", NULL,
-     "density of the liquid"},
-    {"gravity", PARAM_NUMBER, offsetof(struct column_waves, gravity), "m/s2", 1e-3, 1e3, "9.81", NULL,
-     "the g in which the hydraulic conductivity is meant"},
+    CONDUCTIVITY_PARAMS(struct column_waves, pores),
     {"height", PARAM_NUMBER, offsetof(struct column_waves, height), "m", 1e-9, 1e9, NULL, NULL, "height of the column"},
     {"load", PARAM_NUMBER, offsetof(struct column_waves, load), "Pa", -1e12, 1e12, NULL, NULL,
      "pressure of the load on the skeleton"},
@@ -36,11 +30,11 @@ enum { BATCH = 64 };
 
 void column_matrices_make(const struct column_waves *c, struct column_matrices *m)
 {
-  double n = c->porosity, s = 1.0 - n, K = c->bulk_modulus, trace, root;
+  double n = c->pores.porosity, s = 1.0 - n, K = c->bulk_modulus, trace, root;
   m->M = elastic_oedometer(c->young, c->poisson);
   m->r[0] = s * c->solid_density;
-  m->r[1] = n * c->density;
-  m->drag = n * n * c->density * c->gravity / c->permeability;
+  m->r[1] = n * c->pores.density;
+  m->drag = n * n * c->pores.density * c->pores.gravity / conductivity(&c->pores);
   m->s11 = m->M + s * s * K / n;
   m->s12 = s * K;
   m->s22 = n * K;
@@ -82,6 +76,8 @@ static enum status value(const void *prm, int quantity, int n, const double (*x)
 {
   const struct column_waves *c = prm;
   double                     angular, decay;
+  if (conductivity(&c->pores) <= 0.0)
+    return FAIL(ERR_INPUT, "column_waves: permeability and grain_diameter are both 0; give one");
   if (quantity < FREQUENCY) {
     for (int i = 0; i < n; i += BATCH) states(c, quantity, n - i < BATCH ? n - i : BATCH, x + i, t, v + i);
     return OK;
@@ -97,7 +93,7 @@ static double time_scale(const void *prm)
 {
   const struct column_waves *c = prm;
   double                     M = elastic_oedometer(c->young, c->poisson);
-  return c->height * c->height * c->density * c->gravity / (c->permeability * M);
+  return c->height * c->height * c->pores.density * c->pores.gravity / (conductivity(&c->pores) * M);
 }
 
 static double scale(const void *prm, int quantity)

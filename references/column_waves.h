@@ -3,12 +3,14 @@
 #ifndef REFERENCES_COLUMN_WAVES_H
 #define REFERENCES_COLUMN_WAVES_H
 
+#include "references/conductivity.h"
 #include "references/reference.h"
 
 struct column_waves {
-  double young, poisson, porosity, permeability, solid_density, bulk_modulus, density, gravity;
-  double height, load, ramp, base, water; /* ramp s; water: m of clear liquid above the column */
-  int    terms;                           /* modes of a bare column */
+  struct conductivity pores;
+  double              young, poisson, solid_density, bulk_modulus;
+  double              height, load, ramp, base, water; /* ramp s; water: m of clear liquid above the column */
+  int                 terms;                           /* modes of a bare column */
 };
 
 /* R u'' + C u' = S d2u/dy2 for u = (solid, liquid): R = diag(r), C = drag [1 -1; -1 1] */

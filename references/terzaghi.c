@@ -1,24 +1,20 @@
 /* One-dimensional consolidation with compressible water: a column under a load that is applied at once and kept,
  * drained at its top, closed at its base; quasi-static. docs/references.md, "Consolidation of a column". */
+#include "references/conductivity.h"
 #include "references/elastic.h"
 #include "references/reference.h"
 
 struct terzaghi {
-  double young, poisson, porosity, permeability, bulk_modulus, density, gravity, height, load, base;
+  struct conductivity pores;
+  double              young, poisson, bulk_modulus, height, load, base;
 };
 
 static const struct param params[] = {
     {"young", PARAM_NUMBER, offsetof(struct terzaghi, young), "Pa", 1e-6, 1e15, NULL, NULL, "Young's modulus"},
     {"poisson", PARAM_NUMBER, offsetof(struct terzaghi, poisson), "-", -0.99, 0.499, NULL, NULL, "Poisson's ratio"},
-    {"porosity", PARAM_NUMBER, offsetof(struct terzaghi, porosity), "-", 1e-3, 0.999, NULL, NULL, "porosity"},
-    {"permeability", PARAM_NUMBER, offsetof(struct terzaghi, permeability), "m/s", 1e-30, 1e3, NULL, NULL,
-     "hydraulic conductivity"},
     {"bulk_modulus", PARAM_NUMBER, offsetof(struct terzaghi, bulk_modulus), "Pa", 1, INFINITY, NULL, NULL,
      "bulk modulus of the liquid; infinite: no storage"},
-    {"density", PARAM_NUMBER, offsetof(struct terzaghi, density), "kg/m3", 1e-3, 1e5, "1000", NULL,
-     "density of the liquid"},
-    {"gravity", PARAM_NUMBER, offsetof(struct terzaghi, gravity), "m/s2", 1e-3, 1e3, "9.81", NULL,
-     "the g in which the hydraulic conductivity is meant"},
+    CONDUCTIVITY_PARAMS(struct terzaghi, pores),
     {"height", PARAM_NUMBER, offsetof(struct terzaghi, height), "m", 1e-9, 1e9, NULL, NULL, "height of the column"},
     {"load", PARAM_NUMBER, offsetof(struct terzaghi, load), "Pa", -1e12, 1e12, NULL, NULL,
      "pressure of the load on the skeleton"},
@@ -31,13 +27,16 @@ enum { P, STRESS_YY, DISPLACEMENT_Y, SETTLEMENT, BASE_PRESSURE, P0 };
 static double modulus(const struct terzaghi *c) { return elastic_oedometer(c->young, c->poisson); }
 
 /* 1 + M S: how much the water's own compression softens the undrained column */
-static double softening(const struct terzaghi *c) { return 1.0 + modulus(c) * c->porosity / c->bulk_modulus; }
+static double softening(const struct terzaghi *c) { return 1.0 + modulus(c) * c->pores.porosity / c->bulk_modulus; }
 
 /* Pa */
 static double undrained(const struct terzaghi *c) { return c->load / softening(c); }
 
 /* m2/s, without storage */
-static double diffusivity(const struct terzaghi *c) { return c->permeability / (c->density * c->gravity) * modulus(c); }
+static double diffusivity(const struct terzaghi *c)
+{
+  return conductivity(&c->pores) / (c->pores.density * c->pores.gravity) * modulus(c);
+}
 
 /* z above the base in units of the height, inside the column */
 static double height_of(const struct terzaghi *c, double y) { return fmin(fmax((y - c->base) / c->height, 0), 1); }
@@ -101,6 +100,7 @@ static double one(const struct terzaghi *c, int quantity, double y, double t)
 
 static enum status value(const void *prm, int quantity, int n, const double (*x)[3], double t, double *v)
 {
+  if (diffusivity(prm) <= 0.0) return FAIL(ERR_INPUT, "terzaghi: permeability and grain_diameter are both 0; give one");
   for (int i = 0; i < n; i++) v[i] = one(prm, quantity, x[i][1], t);
   return OK;
 }
