@@ -141,7 +141,7 @@ START_TEST(lines)
   fake_ok(gauges_create(&r.sim, r.folder, ranges, &g));
   fake_ok(gauges_sample(g, &r.sim));
   for (int i = 0; i < 5; i++) {
-    char         name[16];
+    char         name[32];
     const double x[3] = {-0.1 + 0.1 * i, 0.2 + 0.075 * i, 0};
     snprintf(name, sizeof name, "line.%d", i);
     NEAR(series_end(g, name), linear(x), 1e-12);
