@@ -128,8 +128,8 @@ enum pressure_solver { SOLVER_AUTO, SOLVER_HYPRE, SOLVER_DIRECT };
 struct numerics {
   int    basis, transfer, stress_timing, wall_basis, pressure_solver;
   double aflip_beta, points_per_cell; /* points per cell: a square or cube number, or nx x ny x nz below */
-  int    points_per_axis[3];          /* 0: from points_per_cell */
-  double dt_factor, dt_max;
+  int    points_per_axis[3];          /* their number along each axis */
+  double dt_factor, dt_max; /* s; INFINITY: none */
   double theta;
   double pressure_tolerance; /* of the volume flux per step, relative to the pore volume */
 };

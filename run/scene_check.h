@@ -1,0 +1,17 @@
+/* What no single value can tell: whether the parts of a scene fit together. */
+#ifndef RUN_SCENE_CHECK_H
+#define RUN_SCENE_CHECK_H
+
+#include "core/scene.h"
+#include "run/params.h"
+
+/** Whole cells, one-cell axes, points per axis, periodic pairs, materials that suit fluid and drag, metrics. Completes
+ *  the scene: cells, max, middle of a null coordinate, times of metrics. */
+enum status scene_check(struct reader *reader, struct scene *scene) MUST_CHECK;
+/** Solids inside the grid, not empty, not overlapping; loads on a solid; tracers and gauges inside the grid. */
+enum status scene_check_places(struct reader *reader, struct scene *scene) MUST_CHECK;
+
+/** Points of the regular lattice (points per axis in every cell) that lie in a shape. */
+long scene_count_points(const struct scene *scene, const struct shape *shape);
+
+#endif

@@ -1,0 +1,332 @@
+/* What may stand in a scene: the tables of the scene's own structs. Entries are read in this order. */
+#include "run/scene_tables.h"
+
+#include "constitutive/constitutive.h"
+#include "core/scene.h"
+#include "coupling/drag.h"
+#include "eos/eos.h"
+#include "references/reference.h"
+
+#define AT(type, member) offsetof(struct type, member)
+#define VALUE(name, kind, type, member, fallback, unit, meaning)                                                       \
+  {                                                                                                                    \
+    name, ENTRY_VALUE, &value_##kind, NULL, AT(type, member), 0, fallback, NULL, NULL, unit, meaning                   \
+  }
+#define SECTION(name, table, offset, fallback, meaning)                                                                \
+  {                                                                                                                    \
+    name, ENTRY_SECTION, NULL, &table, offset, 0, fallback, NULL, NULL, "-", meaning                                   \
+  }
+#define MAP(name, table, member, meaning)                                                                              \
+  {                                                                                                                    \
+    name, ENTRY_MAP, NULL, &table, AT(scene, member), AT(scene, n_##member), "{}", NULL, NULL, "-", meaning            \
+  }
+#define ENTRY_END                                                                                                      \
+  {                                                                                                                    \
+    .name = NULL                                                                                                       \
+  }
+#define ZERO_DEFAULT "0"
+
+/* ---- registered laws ---- */
+
+bool constitutive_row(int i, struct row *row)
+{
+  const struct constitutive_model *m = constitutive_models[i];
+  if (m) *row = (struct row){m->name, m->source, m->params, m->param_size, m};
+  return m != NULL;
+}
+
+bool eos_row(int i, struct row *row)
+{
+  const struct eos *e = eos_laws[i];
+  if (e) *row = (struct row){e->name, e->source, e->params, e->param_size, e};
+  return e != NULL;
+}
+
+bool drag_row(int i, struct row *row)
+{
+  const struct drag_law *d = drag_laws[i];
+  if (d) *row = (struct row){d->name, d->source, d->params, d->param_size, d};
+  return d != NULL;
+}
+
+bool reference_row(int i, struct row *row)
+{
+  const struct reference *r = references[i];
+  if (r) *row = (struct row){r->name, r->source, r->params, r->param_size, r};
+  return r != NULL;
+}
+
+/* ---- grid, time ---- */
+
+static const struct param grid_params[] = {
+    {"min", PARAM_VECTOR, AT(scene, min), "m", -1e9, 1e9, NULL, NULL,
+     "lower corner; two or three numbers set the dimension"},
+    {"max", PARAM_VECTOR, AT(scene, max), "m", -1e9, INFINITY, NULL, NULL,
+     "upper corner; null: this axis is one cell wide whatever h is"},
+    {"h", PARAM_NUMBER, AT(scene, h), "m", 1e-9, 1e6, NULL, NULL, "width of a cell"},
+    PARAM_END};
+static const struct section grid_section = {.meaning = "uniform grid that the whole scene lies in",
+                                            .params = grid_params};
+
+static const struct param time_params[] = {
+    {"end", PARAM_NUMBER, AT(scene, time_end), "s", 1e-12, 1e12, NULL, NULL, "time at which the run ends"}, PARAM_END};
+static const struct section time_section = {.meaning = "span of time", .params = time_params};
+
+/* ---- materials and solids ---- */
+
+static const struct param material_params[] = {
+    {"density", PARAM_NUMBER, AT(material, density), "kg/m3", 1e-6, 1e6, NULL, NULL, "density of the grains"},
+    {"porosity", PARAM_NUMBER, AT(material, porosity), "-", 0, 0.99, "0", NULL,
+     "pore volume over total volume at the start"},
+    {"permeability", PARAM_NUMBER, AT(material, permeability), "m/s", 0, 1e3, "0", NULL,
+     "hydraulic conductivity; 0: not given"},
+    {"grain_diameter", PARAM_NUMBER, AT(material, grain_diameter), "m", 0, 100, "0", NULL,
+     "diameter of a grain; 0: not given"},
+    PARAM_END};
+static const struct choice model_choice = {
+    "model", NULL, "skeleton law", constitutive_row, AT(material, model), AT(material, model_params), NULL};
+static const struct section material_section = {
+    .meaning = "material", .size = sizeof(struct material), .params = material_params, .choice = &model_choice};
+
+static const struct param solid_params[] = {
+    {"velocity", PARAM_FUNCTION3, AT(solid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
+    PARAM_END};
+static const struct entry solid_entries[] = {
+    VALUE("material", material, solid, material, NULL, "-", "name of its material"),
+    VALUE("shape", shape, solid, shape, NULL, "-", "region that it fills at the start"), ENTRY_END};
+static const struct section solid_section = {
+    .meaning = "body", .size = sizeof(struct solid), .params = solid_params, .entries = solid_entries};
+
+/* ---- fluid ---- */
+
+static const char *const   eos_given[] = {"reference_density", "density", "bulk_modulus", "bulk_modulus", NULL};
+static const struct choice eos_choice = {
+    "law", "linear_water", "equation of state", eos_row, AT(fluid, eos), AT(fluid, eos_params), eos_given};
+static const struct section eos_section = {.meaning = "equation of state", .choice = &eos_choice, .word = true};
+static const struct choice drag_choice = {"law", "darcy", "drag law", drag_row, AT(fluid, drag), AT(fluid, drag_params),
+                                          NULL};
+static const struct section drag_section = {
+    .meaning = "drag between the fluid and a skeleton", .choice = &drag_choice, .word = true};
+
+static const struct param fluid_params[] = {
+    {"density", PARAM_NUMBER, AT(fluid, density), "kg/m3", 1e-6, 1e6, "1000", NULL,
+     "density at the reference pressure"},
+    {"bulk_modulus", PARAM_NUMBER, AT(fluid, bulk_modulus), "Pa", 1e-6, INFINITY, "2.2e9", NULL,
+     "bulk modulus; \"infinite\": incompressible"},
+    {"viscosity", PARAM_NUMBER, AT(fluid, viscosity), "Pa s", 0, 1e6, "1e-3", NULL, "dynamic viscosity"},
+    {"velocity", PARAM_FUNCTION3, AT(fluid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
+    {"pressure", PARAM_FUNCTION, AT(fluid, pressure), "Pa", 0, 0, ZERO_DEFAULT, NULL,
+     "gauge pressure at the start, where the start is \"zero\""},
+    PARAM_END};
+static const struct entry fluid_entries[] = {
+    VALUE("path", fluid_path, fluid, path, "null", "-", "fluid path: the method that moves the fluid"),
+    SECTION("eos", eos_section, 0, "{}", "equation of state"), SECTION("drag", drag_section, 0, "{}", "drag law"),
+    VALUE("region", shape, fluid, region, "everywhere", "-", "region that it fills at the start, pores included"),
+    ENTRY_END};
+static const struct section fluid_section = {.meaning = "liquid", .params = fluid_params, .entries = fluid_entries};
+
+/* ---- sides ---- */
+
+const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
+#define SIDES_OF(kind, member)                                                                                         \
+  VALUE("x_min", kind, scene, member[X_MIN], "slip", "-", "side at the lowest x"),                                     \
+      VALUE("x_max", kind, scene, member[X_MAX], "slip", "-", "side at the highest x"),                                \
+      VALUE("y_min", kind, scene, member[Y_MIN], "slip", "-", "side at the lowest y"),                                 \
+      VALUE("y_max", kind, scene, member[Y_MAX], "slip", "-", "side at the highest y"),                                \
+      VALUE("z_min", kind, scene, member[Z_MIN], "slip", "-", "side at the lowest z; 3D only"),                        \
+      VALUE("z_max", kind, scene, member[Z_MAX], "slip", "-", "side at the highest z; 3D only"), ENTRY_END
+
+static const struct entry   solid_sides[] = {SIDES_OF(side_solid, solid_side)};
+static const struct entry   fluid_sides[] = {SIDES_OF(side_fluid, fluid_side)};
+static const struct section solid_sides_section = {.meaning = "what the sides of the grid do to solids",
+                                                   .entries = solid_sides};
+static const struct section fluid_sides_section = {.meaning = "what the sides of the grid do to the fluid",
+                                                   .entries = fluid_sides};
+static const struct entry   boundary_entries[] = {
+      SECTION("solid", solid_sides_section, 0, "{}", "what the sides of the grid do to solids"),
+      SECTION("fluid", fluid_sides_section, 0, "{}", "what the sides of the grid do to the fluid"), ENTRY_END};
+static const struct section boundary_section = {.meaning = "conditions at the sides of the grid",
+                                                .entries = boundary_entries};
+
+/* ---- loads, tracers, gauges ---- */
+
+static const struct param load_params[] = {
+    {"traction", PARAM_FUNCTION3, AT(load, traction), "Pa", 0, 0, ZERO_DEFAULT, NULL, "force on the solid per area"},
+    {"pressure", PARAM_FUNCTION, AT(load, pressure), "Pa", 0, 0, ZERO_DEFAULT, NULL,
+     "pressure against the outward normal"},
+    PARAM_END};
+static const struct entry load_entries[] = {
+    VALUE("on", shape, load, patch, NULL, "-", "surface: a box of zero width along one axis, or in 2D a circle"),
+    ENTRY_END};
+static const struct section load_section = {.meaning = "traction on a surface that rides on the solid",
+                                            .size = sizeof(struct load),
+                                            .params = load_params,
+                                            .entries = load_entries};
+
+static const struct param   tracer_params[] = {{"at", PARAM_VECTOR, AT(tracer, x), "m", -1e9, INFINITY, NULL, NULL,
+                                                "place at the start; null: the middle of that axis"},
+                                               PARAM_END};
+static const struct section tracer_section = {.meaning = "massless point that moves with the solid",
+                                              .size = sizeof(struct tracer),
+                                              .params = tracer_params,
+                                              .bare = true};
+
+#define GAUGE_OF                                                                                                       \
+  {                                                                                                                    \
+    "of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL, "output field with component, such as P or displacement_y" \
+  }
+#define GAUGE_ON                                                                                                       \
+  {                                                                                                                    \
+    "on", PARAM_TEXT, AT(gauge, on), "-", 0, 0, NULL, NULL, "name of the tracer or load"                               \
+  }
+static const struct param gauge_point[] = {
+    GAUGE_OF,
+    {"at", PARAM_VECTOR, AT(gauge, x), "m", -1e9, INFINITY, NULL, NULL, "place; null: the middle of that axis"},
+    PARAM_END};
+static const struct param gauge_line[] = {
+    GAUGE_OF,
+    {"from", PARAM_VECTOR, AT(gauge, x), "m", -1e9, INFINITY, NULL, NULL, "first sample"},
+    {"to", PARAM_VECTOR, AT(gauge, to), "m", -1e9, INFINITY, NULL, NULL, "last sample"},
+    {"samples", PARAM_INTEGER, AT(gauge, n), "-", 2, 10000, "20", NULL, "number of samples"},
+    PARAM_END};
+static const struct param gauge_region[] = {
+    {"of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL, "output field with component, or an entry of the ledger"},
+    PARAM_END};
+static const struct param gauge_load[] = {GAUGE_OF, GAUGE_ON, PARAM_END};
+static const struct param gauge_tracer[] = {
+    GAUGE_OF,
+    GAUGE_ON,
+    {"at", PARAM_VECTOR, AT(gauge, x), "m", -1e9, 1e9, "0", NULL, "where its distance is taken from"},
+    PARAM_END};
+
+/* in the order of enum gauge_kind */
+static bool gauge_row(int i, struct row *row)
+{
+  static const struct row rows[] = {{"point", NULL, gauge_point, 0, NULL},     {"line", NULL, gauge_line, 0, NULL},
+                                    {"integral", NULL, gauge_region, 0, NULL}, {"mean", NULL, gauge_region, 0, NULL},
+                                    {"tracer", NULL, gauge_tracer, 0, NULL},   {"load", NULL, gauge_load, 0, NULL}};
+  bool                    found = i < (int)(sizeof rows / sizeof *rows);
+  if (found) *row = rows[i];
+  return found;
+}
+
+static const struct choice  gauge_choice = {"kind", NULL, "kind of gauge: " GAUGE_WORDS, gauge_row, AT(gauge, kind),
+                                            0,      NULL};
+static const struct entry   gauge_entries[] = {{"region", ENTRY_VALUE, &value_shape, NULL, AT(gauge, region), 0,
+                                                "everywhere", NULL, "integral|mean", "-", "region that is summed over"},
+                                               ENTRY_END};
+static const struct section gauge_section = {.meaning = "number sampled over time",
+                                             .size = sizeof(struct gauge),
+                                             .entries = gauge_entries,
+                                             .choice = &gauge_choice};
+
+/* ---- references and metrics ---- */
+
+static const struct choice reference_choice = {
+    "kind", NULL, "reference", reference_row, AT(reference_use, reference), AT(reference_use, params), NULL};
+static const struct section reference_section = {
+    .meaning = "exact solution to compare with; a number may be \"=key.path\", what stands there",
+    .size = sizeof(struct reference_use),
+    .choice = &reference_choice,
+    .links = true};
+
+static const struct param metric_params[] = {
+    {"measure", PARAM_CHOICE, AT(metric, measure), "-", 0, 0, NULL, MEASURE_WORDS, "how the difference is measured"},
+    {"field", PARAM_TEXT, AT(metric, field), "-", 0, 0, "", NULL, "output field with component, at the time \"at\""},
+    {"gauge", PARAM_TEXT, AT(metric, gauge), "-", 0, 0, "", NULL, "gauge, over the time \"from\" to \"to\""},
+    {"reference", PARAM_TEXT, AT(metric, reference), "-", 0, 0, "", NULL,
+     "\"name.quantity\" of a reference; empty: \"expected\""},
+    {"expected", PARAM_FUNCTION, AT(metric, expected), "SI", 0, 0, ZERO_DEFAULT, NULL,
+     "what it is compared with where there is no reference"},
+    {"at", PARAM_NUMBER, AT(metric, at), "s", 0, INFINITY, "null", NULL, "time of a field; null: the end"},
+    {"from", PARAM_NUMBER, AT(metric, from), "s", 0, 1e15, "0", NULL, "start of the span of a gauge"},
+    {"to", PARAM_NUMBER, AT(metric, to), "s", 0, INFINITY, "null", NULL, "end of the span of a gauge; null: the end"},
+    {"scale", PARAM_NUMBER, AT(metric, scale), "SI", 0, 1e300, "0", NULL,
+     "result is divided by it; 0: by the reference's own scale"},
+    {"offset", PARAM_NUMBER, AT(metric, offset), "SI", -1e300, 1e300, "0", NULL, "added to the gauge before comparing"},
+    PARAM_END};
+static const struct entry metric_entries[] = {
+    VALUE("time", time_unit, metric, scaled_time, "seconds", "-",
+          "scaled: at, from, to count in the reference's unit of time"),
+    VALUE("region", shape, metric, region, "everywhere", "-", "where a field is compared"), ENTRY_END};
+static const struct section metric_section = {.meaning = "number of a run that is compared",
+                                              .size = sizeof(struct metric),
+                                              .params = metric_params,
+                                              .entries = metric_entries,
+                                              .links = true};
+
+/* ---- numerics and output ---- */
+
+static const struct param numerics_params[] = {
+    {"basis", PARAM_CHOICE, AT(numerics, basis), "-", 0, 0, "quadratic", BASIS_WORDS,
+     "functions between points and nodes"},
+    {"transfer", PARAM_CHOICE, AT(numerics, transfer), "-", 0, 0, "aflip", TRANSFER_WORDS,
+     "how points take velocities from nodes"},
+    {"aflip_beta", PARAM_NUMBER, AT(numerics, aflip_beta), "-", 0, 1, "1", NULL, "blend of aflip: 1 apic, 0 flip"},
+    {"stress_timing", PARAM_CHOICE, AT(numerics, stress_timing), "-", 0, 0, "musl", "usl|musl",
+     "musl gathers momentum again before the stress"},
+    {"wall_basis", PARAM_CHOICE, AT(numerics, wall_basis), "-", 0, 0, "mirrored", "mirrored|modified",
+     "basis functions at the sides of the grid"},
+    {"dt_factor", PARAM_NUMBER, AT(numerics, dt_factor), "-", 1e-6, 1e6, "0.8", NULL, "time step over its limit"},
+    {"dt_max", PARAM_NUMBER, AT(numerics, dt_max), "s", 1e-15, INFINITY, "null", NULL, "largest time step; null: none"},
+    {"theta", PARAM_NUMBER, AT(numerics, theta), "-", 0.5, 1, "1", NULL,
+     "weight of the new pressure: 1 damps sound, 0.5 keeps it"},
+    {"pressure_solver", PARAM_CHOICE, AT(numerics, pressure_solver), "-", 0, 0, "auto", "auto|hypre|direct",
+     "solver of the pressure equation"},
+    {"pressure_tolerance", PARAM_NUMBER, AT(numerics, pressure_tolerance), "-", 1e-16, 1e-2, "1e-10", NULL,
+     "residual of the volume flux per step over the pore volume"},
+    PARAM_END};
+static const struct entry numerics_entries[] = {
+    {"points_per_cell", ENTRY_VALUE, &value_points_per_cell, NULL, 0, 0, "4", "8", NULL, "-",
+     "points in a full cell: a square (2D) or cube (3D), or a list per axis"},
+    ENTRY_END};
+static const struct section numerics_section = {.meaning = "numerical choices; a section per module",
+                                                .params = numerics_params,
+                                                .entries = numerics_entries,
+                                                .modules = true};
+
+static const struct param output_params[] = {{"interval", PARAM_NUMBER, AT(output, interval), "s", 0, 1e12, "0", NULL,
+                                              "time between snapshots; 0: chosen from time.end"},
+                                             {"gauge_interval", PARAM_NUMBER, AT(output, gauge_interval), "s", 0, 1e12,
+                                              "0", NULL, "time between samples; 0: chosen from time.end"},
+                                             {"checkpoint_interval", PARAM_NUMBER, AT(output, checkpoint_interval), "s",
+                                              0, 1e9, "300", NULL,
+                                              "wall time between checkpoints; 0: only when interrupted"},
+                                             PARAM_END};
+static const struct entry output_entries[] = {
+    {"times", ENTRY_VALUE, &value_times, NULL, 0, 0, "[]", NULL, NULL, "s", "more snapshots at these times"},
+    ENTRY_END};
+static const struct section output_section = {
+    .meaning = "what is written, and when", .params = output_params, .entries = output_entries};
+
+/* ---- the scene ---- */
+
+static const struct param scene_params[] = {
+    {"gravity", PARAM_FUNCTION3, AT(scene, gravity), "m/s2", 0, 0, ZERO_DEFAULT, NULL, "gravity, a function of t"},
+    {"start", PARAM_CHOICE, AT(scene, start), "-", 0, 0, "at_rest", "at_rest|zero",
+     "at_rest computes hydrostatic pressure and geostatic stress; zero starts without"},
+    {"seed", PARAM_INTEGER, AT(scene, seed), "-", 0, 2147483647, "1", NULL, "of everything random"},
+    PARAM_END};
+static const struct entry scene_entries[] = {
+    VALUE("title", title, scene, title, "", "-", "one line"),
+    VALUE("notes", notes, scene, title, "", "-", "free text, not used"),
+    SECTION("grid", grid_section, 0, "{}", "uniform grid"),
+    SECTION("time", time_section, 0, "{}", "span of time"),
+    MAP("materials", material_section, materials, "materials by name"),
+    MAP("solids", solid_section, solids, "bodies by name"),
+    SECTION("fluid", fluid_section, AT(scene, fluid), NULL, "the liquid; leave it out for a dry scene"),
+    SECTION("boundary", boundary_section, 0, "{}", "conditions at the sides of the grid"),
+    MAP("loads", load_section, loads, "tractions by name"),
+    MAP("tracers", tracer_section, tracers, "massless points that move with the solid, by name: a list of coordinates"),
+    MAP("gauges", gauge_section, gauges, "numbers sampled over time, by name"),
+    SECTION("numerics", numerics_section, AT(scene, numerics), "{}", "numerical choices"),
+    SECTION("output", output_section, AT(scene, output), "{}", "what is written, and when"),
+    MAP("references", reference_section, references, "exact solutions by name"),
+    MAP("metrics", metric_section, metrics, "numbers compared with references, by name"),
+    VALUE("variants", override_sets, scene, title, "{}", "-", "overrides by name, for SCENE+name: \"key.path\": value"),
+    VALUE("quick", overrides, scene, title, "{}", "-", "overrides of --quick"),
+    VALUE("paths", path_overrides, scene, title, "{}", "-", "overrides of a fluid path"),
+    ENTRY_END};
+
+const struct section scene_section = {.meaning = "scene", .params = scene_params, .entries = scene_entries};
