@@ -16,7 +16,7 @@ static double inertia(double phi, double Re)
   double n = 1.0 - phi, log_Re = log(Re);
   double power = exp(0.5 * (1.0 + 4.0 * phi) * log_Re);
   double numerator = Re * (1.0 / n + 3.0 * phi * n) + 8.4 * exp(0.657 * log_Re);
-  return 0.413 / (24.0 * n * n) * numerator * power / (power + exp(3.0 * M_LN10 * phi));
+  return 0.413 / (24.0 * n * n) * numerator * power / (power + exp(3.0 * 2.302585092994046 * phi));
 }
 
 static void coefficient(const void *prm, int n, const struct drag_medium *m, double *K)

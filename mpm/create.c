@@ -3,6 +3,8 @@
 
 #include "constitutive/constitutive.h"
 #include "core/memory.h"
+#include "core/tensor.h"
+#include "mpm/at_rest.h"
 
 #include <string.h>
 
@@ -95,6 +97,28 @@ enum status mpm_create_points(struct sim *sim, struct mpm *m)
   }
   memory_free(&x);
   memory_free(&body);
+  return OK;
+}
+
+/* geostatic stress of the points: vertical from the weight above, lateral by the law's ratio */
+enum status mpm_start_stress(struct sim *sim, struct mpm *m)
+{
+  const struct scene *scene = sim->scene;
+  double              up[3], g;
+  at_rest_up(scene, up, &g);
+  if (scene->start != START_AT_REST || g == 0 || !m->stress_p) return OK;
+  for (long p = 0; p < m->points->n; p++) {
+    const struct material *material = &scene->materials[m->points->group[p]];
+    struct rest            rest;
+    double                 x[3] = {0}, stress[9];
+    for (int d = 0; d < scene->dim; d++) x[d] = m->x_p[p * scene->dim + d];
+    TRY(at_rest_column(scene, x, &rest));
+    double lateral = material->model->held ? 1 : material->model->lateral_ratio(material->model_params);
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++)
+        stress[3 * i + j] = rest.effective * (lateral * (i == j) + (1 - lateral) * up[i] * up[j]);
+    tensor_to_symmetric(stress, m->stress_p + 6 * p);
+  }
   return OK;
 }
 

@@ -6,6 +6,8 @@
 
 /** Points of every solid on their lattice, unstressed, with the scene's velocity. */
 enum status mpm_create_points(struct sim *sim, struct mpm *m) MUST_CHECK;
+/** Geostatic stress where the scene starts at rest. */
+enum status mpm_start_stress(struct sim *sim, struct mpm *m) MUST_CHECK;
 /** Markers on loaded surfaces and tracers. */
 enum status mpm_create_markers(struct sim *sim, struct mpm *m) MUST_CHECK;
 long        mpm_count_markers(const struct scene *scene);

@@ -71,6 +71,7 @@ static enum status create(struct sim *sim, void *state)
   kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
   TRY(NEW(&m->run_speed, 2 * m->points->n_runs));
   TRY(mpm_create_points(sim, m));
+  TRY(mpm_start_stress(sim, m));
   TRY(mpm_create_markers(sim, m));
   TRY(mpm_sort_now(sim, m));
   m->mass_floor = INFINITY;

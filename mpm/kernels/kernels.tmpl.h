@@ -271,7 +271,7 @@ static void scatter(const struct kernel_grid *kg, const struct kernel_run *run, 
     tile_add(&t, &s, A0, A, G);
   }
   FOR_TILE(&t, &kg->g, node, r)
-  for (int q = 0; q < a->n; q++) a->node[q][node] += t.record[r][q];
+  for (int q = 0; q < a->n; q++) a->node[q][node] += (a->factor[q] != 0 ? a->factor[q] : 1) * t.record[r][q];
 }
 
 static void gather(const struct kernel_grid *kg, const struct kernel_run *run, const struct gather_args *a)

@@ -1,0 +1,137 @@
+/* Volume fractions of the skeleton at nodes, cells and faces. theory 2.1 */
+#include "coupling/stages.h"
+
+#include "core/parallel.h"
+#include "mpm/mpm.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static void clear(const struct grid *g, double *field) { memset(field, 0, (size_t)g->size * sizeof *field); }
+
+/* grains and skeleton volumes of the points, gathered at nodes */
+static void gather_volumes(struct sim *sim, struct coupling *c)
+{
+  const struct mpm   *m = mpm_of(sim);
+  struct scatter_args args = {.n = 2,
+                              .x = m->x_p,
+                              .value = {m->volume_solid_p, m->volume_p},
+                              .node = {c->solid_nc, c->bulk_nc}};
+  clear(&sim->grid, c->solid_nc);
+  clear(&sim->grid, c->bulk_nc);
+  FOR_RUNS(m->points, &sim->grid, run, group) m->kernels->scatter(&m->kernel_grid, &run, &args);
+  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->solid_nc);
+  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->bulk_nc);
+}
+
+enum status coupling_gather_volumes(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct coupling *c = coupling_of(sim);
+  if (c->volumes_known) return OK;
+  gather_volumes(sim, c);
+  return OK;
+}
+
+/* several media: what drag laws need is averaged over the skeleton as 1/permeability and 1/diameter2 */
+enum status coupling_gather_media(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct coupling  *c = coupling_of(sim);
+  const struct mpm *m = mpm_of(sim);
+  if (c->volumes_known) return OK;
+  clear(&sim->grid, c->conductance_nc);
+  clear(&sim->grid, c->fineness_nc);
+  FOR_RUNS(m->points, &sim->grid, run, group)
+  {
+    const struct material *material = &sim->scene->materials[group];
+    double                 kappa = coupling_permeability(sim->scene, material), D = material->grain_diameter;
+    struct scatter_args    args = {.n = 2, .x = m->x_p, .weight = m->volume_p, .node = {c->conductance_nc, c->fineness_nc}};
+    args.factor[0] = kappa > 0 ? 1 / kappa : DBL_MIN;
+    args.factor[1] = D > 0 ? 1 / (D * D) : DBL_MIN;
+    m->kernels->scatter(&m->kernel_grid, &run, &args);
+  }
+  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->conductance_nc);
+  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->fineness_nc);
+  return OK;
+}
+
+/* sum of a nodal quantity over the 2^(dim-1) nodes of a face, or the 2^dim nodes of a cell (axis = -1) */
+static inline double node_sum(const struct grid *g, const double *q, long at, int axis)
+{
+  double sum = 0;
+  for (int corner = 0; corner < 1 << g->dim; corner++) {
+    if (axis >= 0 && corner >> axis & 1) continue;
+    long node = at;
+    for (int d = 0; d < g->dim; d++) node += (corner >> d & 1) * g->stride[d];
+    sum += q[node];
+  }
+  return sum;
+}
+
+/* grains and skeleton per room at nodes; on a periodic axis the last plane copies the first */
+static void node_fractions(struct sim *sim, struct coupling *c)
+{
+  const struct mpm  *m = mpm_of(sim);
+  const struct grid *g = &sim->grid;
+  struct box         nodes = grid_nodes(g);
+  FOR_BOX(g, nodes, n)
+  {
+    c->grains_share_nc[n] = c->solid_nc[n] / c->room_nc[n];
+    c->fill_nc[n] = c->bulk_nc[n] / c->room_nc[n];
+  }
+  boundary_ghosts(&m->kernel_grid, sim->scene->solid_side, 1, sim->t, c->grains_share_nc);
+  boundary_ghosts(&m->kernel_grid, sim->scene->solid_side, 1, sim->t, c->fill_nc);
+}
+
+/* what remains for the fluid even where points crowd together */
+static const double least_porosity = 0.02;
+
+static void cell_fractions(struct sim *sim, struct coupling *c)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             mean = 1.0 / (1 << g->dim);
+  FOR_BOX(g, cells, i) c->porosity_cc[i] = fmax(least_porosity, 1 - mean * node_sum(g, c->grains_share_nc, i, -1));
+}
+
+/* the medium's own porosity is grains over skeleton: a half-filled face has half the resistance, not that of a loose soil */
+static void face_fractions(struct sim *sim, struct coupling *c, int axis)
+{
+  const struct grid *g = &sim->grid;
+  struct box         faces = grid_faces(g, axis);
+  double             mean = 2.0 / (1 << g->dim);
+  double            *porosity = c->porosity_fc + axis * g->size, *fill = c->fill_fc + axis * g->size, *medium = c->medium_porosity_fc + axis * g->size;
+  FOR_BOX(g, faces, f)
+  {
+    double grains = mean * node_sum(g, c->grains_share_nc, f, axis), bulk = mean * node_sum(g, c->fill_nc, f, axis);
+    porosity[f] = fmax(least_porosity, 1 - grains);
+    fill[f] = bulk;
+    medium[f] = bulk > 0 ? fmax(least_porosity, 1 - grains / bulk) : 1;
+  }
+}
+
+enum status coupling_fill_cells(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct coupling *c = coupling_of(sim);
+  if (c->volumes_known) return OK;
+  node_fractions(sim, c);
+  cell_fractions(sim, c);
+  for (int axis = 0; axis < sim->grid.dim; axis++) face_fractions(sim, c, axis);
+  c->volumes_known = !mpm_solid_moves(sim->scene);
+  return OK;
+}
+
+enum status coupling_push_solid(struct sim *sim, double dt)
+{
+  struct coupling   *c = coupling_of(sim);
+  struct mpm        *m = mpm_of(sim);
+  const struct grid *g = &sim->grid;
+  struct box         nodes = grid_nodes(g);
+  int                dim = g->dim;
+  FOR_BOX(g, nodes, n)
+  for (int d = 0; d < dim; d++) m->force_nc[n * dim + d] += c->dmom_nc[n * dim + d] / dt;
+  return OK;
+}
