@@ -1,0 +1,44 @@
+/* What the parts of the metrics share: one compiled metric, and its evaluation on a field or on a series. */
+#ifndef RUN_METRIC_PARTS_H
+#define RUN_METRIC_PARTS_H
+
+#include "core/sim.h"
+#include "run/fields.h"
+
+/* Values that a metric is compared with: a quantity of a reference, or an expression. */
+struct expectancy {
+  const struct reference *reference; /* NULL: the expression */
+  const void             *params;
+  int                     quantity;
+  const struct function  *expression;
+};
+
+/* A metric made ready. */
+struct compiled_metric {
+  const struct metric *metric;
+  struct expectancy    expected;
+  double               at, from, to; /* s */
+  double               x[3];         /* m: place of a gauge */
+  bool                 single;       /* one number: value, mean, frequency, decay */
+  struct field_view    view, wet;    /* of a field; wet.data NULL: every cell counts */
+  int                  component;
+};
+
+/** At x [n][3] m and time t s. */
+enum status expectancy_values(const struct expectancy *e, int n, const double (*x)[3], double t, double *v) MUST_CHECK;
+/** What the result is divided by: the scene's scale, else the expected value of a single number, else the reference's
+ *  scale. *relative: the result has no unit. */
+double metric_scale(const struct compiled_metric *m, double expected, bool *relative);
+
+/** Result of a field metric now, before scaling; `expected`: mean of what was expected. difference [grid.size] is
+ *  scratch of roughness, NULL for other measures. ERR_INPUT: nothing lies in its region. */
+enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, double *difference, double *result,
+                            double *expected) MUST_CHECK;
+/** Result of a gauge metric from the samples v [n] at t [n] s, before scaling. */
+enum status metric_of_series(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
+                             double *expected) MUST_CHECK;
+/** m: where the quantity of a gauge is meant: the point, the sample of a line, the tracer at the start, the middle of a
+ *  load's patch. */
+void metric_place_gauge(const struct scene *scene, const char *name, double x[3]);
+
+#endif
