@@ -1,5 +1,103 @@
-/* The rare case of the driver of rate laws: steps too large for its series. */
+/* Polar decomposition of a step for groups of points. Small steps take a series in E = dF^T dF - I, which is vector
+ * code; large ones, eigenvalues. */
 #include "constitutive/corotate.h"
+
+/* Above this |E| (Frobenius) series of TERMS terms lose digits; beyond |dF - I| = 1 it may be a reflection. */
+#define SMALL_STRETCH 0.02
+#define SMALL_TURN 1.0
+enum { TERMS = 9 };
+
+/* A step of a group: G = dF - I, E, E2 = E E, |E|^2 and |G|^2. */
+struct step {
+  VECTOR G[9], E[6], E2[6], stretch2, turn2;
+};
+
+/* A polynomial of E is a I + b E + c E^2 (Cayley-Hamilton). */
+struct polynomial {
+  VECTOR a, b, c;
+};
+
+static void load(int m, const double *dF, const double *stress, struct step *s, struct corotate_group *g)
+{
+  if (m < LANES) {
+    memset(s->G, 0, sizeof s->G);
+    memset(g->stress, 0, sizeof g->stress);
+  }
+  for (int i = 0; i < m; i++) {
+    for (int k = 0; k < 9; k++) s->G[k][i] = dF[9 * i + k] - (k % 4 == 0);
+    for (int k = 0; k < 6; k++) g->stress[k][i] = stress[6 * i + k];
+  }
+}
+
+/* E = G + G^T + G^T G */
+static void stretch(struct step *s)
+{
+  const VECTOR *G = s->G;
+  s->E[XX] = 2.0 * G[0] + (G[0] * G[0] + G[3] * G[3] + G[6] * G[6]);
+  s->E[YY] = 2.0 * G[4] + (G[1] * G[1] + G[4] * G[4] + G[7] * G[7]);
+  s->E[ZZ] = 2.0 * G[8] + (G[2] * G[2] + G[5] * G[5] + G[8] * G[8]);
+  s->E[XY] = G[1] + G[3] + (G[0] * G[1] + G[3] * G[4] + G[6] * G[7]);
+  s->E[YZ] = G[5] + G[7] + (G[1] * G[2] + G[4] * G[5] + G[7] * G[8]);
+  s->E[XZ] = G[2] + G[6] + (G[0] * G[2] + G[3] * G[5] + G[6] * G[8]);
+}
+
+static void square(struct step *s)
+{
+  const VECTOR *E = s->E;
+  s->E2[XX] = E[XX] * E[XX] + E[XY] * E[XY] + E[XZ] * E[XZ];
+  s->E2[YY] = E[XY] * E[XY] + E[YY] * E[YY] + E[YZ] * E[YZ];
+  s->E2[ZZ] = E[XZ] * E[XZ] + E[YZ] * E[YZ] + E[ZZ] * E[ZZ];
+  s->E2[XY] = E[XX] * E[XY] + E[XY] * E[YY] + E[XZ] * E[YZ];
+  s->E2[YZ] = E[XY] * E[XZ] + E[YY] * E[YZ] + E[YZ] * E[ZZ];
+  s->E2[XZ] = E[XX] * E[XZ] + E[XY] * E[YZ] + E[XZ] * E[ZZ];
+  s->stretch2 = s->E2[XX] + s->E2[YY] + s->E2[ZZ];
+  s->turn2 = (E[XX] + E[YY] + E[ZZ]) - 2.0 * (s->G[0] + s->G[4] + s->G[8]);
+}
+
+/* log U = log(I + E)/2 and U^-1 = (I + E)^(-1/2) by Horner with E^3 = i1 E^2 - i2 E + i3 I */
+static void series(const struct step *s, struct polynomial *log_U, struct polynomial *U_inverse)
+{
+  static const double logarithm[TERMS + 1] = {0,        1.0 / 2,   -1.0 / 4, 1.0 / 6,   -1.0 / 8,
+                                              1.0 / 10, -1.0 / 12, 1.0 / 14, -1.0 / 16, 1.0 / 18};
+  static const double root[TERMS + 1] = {1,           -1.0 / 2,     3.0 / 8,       -5.0 / 16,      35.0 / 128,
+                                         -63.0 / 256, 231.0 / 1024, -429.0 / 2048, 6435.0 / 32768, -12155.0 / 65536};
+  const VECTOR       *E = s->E;
+  VECTOR              yz = E[YY] * E[ZZ] - E[YZ] * E[YZ];
+  VECTOR              i1 = E[XX] + E[YY] + E[ZZ];
+  VECTOR              i2 = (E[XX] * E[YY] - E[XY] * E[XY]) + yz + (E[XX] * E[ZZ] - E[XZ] * E[XZ]);
+  VECTOR            i3 = E[XX] * yz - E[XY] * (E[XY] * E[ZZ] - E[YZ] * E[XZ]) + E[XZ] * (E[XY] * E[YZ] - E[YY] * E[XZ]);
+  struct polynomial l, r;
+  memset(&l, 0, sizeof l);
+  memset(&r, 0, sizeof r);
+  for (int k = TERMS; k >= 0; k--) {
+    VECTOR a = l.a, b = l.b, ra = r.a, rb = r.b;
+    l.a = logarithm[k] + l.c * i3;
+    r.a = root[k] + r.c * i3;
+    l.b = a - l.c * i2;
+    r.b = ra - r.c * i2;
+    l.c = b + l.c * i1;
+    r.c = rb + r.c * i1;
+  }
+  *log_U = l;
+  *U_inverse = r;
+}
+
+static void evaluate(const struct step *s, const struct polynomial *p, VECTOR result[6])
+{
+  for (int k = 0; k < 6; k++) result[k] = p->b * s->E[k] + p->c * s->E2[k];
+  for (int k = 0; k < 3; k++) result[k] += p->a;
+}
+
+/* R = dF U^-1 */
+static void rotation(const struct step *s, const VECTOR U_inverse[6], VECTOR R[9])
+{
+  static const int at[9] = {XX, XY, XZ, XY, YY, YZ, XZ, YZ, ZZ};
+  for (int r = 0; r < 3; r++)
+    for (int c = 0; c < 3; c++)
+      R[3 * r + c] =
+          U_inverse[at[3 * r + c]] + (s->G[3 * r] * U_inverse[at[c]] + s->G[3 * r + 1] * U_inverse[at[3 + c]] +
+                                      s->G[3 * r + 2] * U_inverse[at[6 + c]]);
+}
 
 /* one Jacobi rotation: makes A[p][q] zero; V collects the eigenvectors as columns */
 static void annihilate(double A[3][3], double V[3][3], int p, int q)
@@ -44,26 +142,28 @@ static void assemble(const double f[3], double V[3][3], double result[3][3])
       result[r][c] = f[0] * V[r][0] * V[c][0] + f[1] * V[r][1] * V[c][1] + f[2] * V[r][2] * V[c][2];
 }
 
-static void unstrained(struct corotate_group *g, int i)
+/* Whether the series holds for lane i; not for NaN. */
+static inline int is_small(const struct step *s, int i)
 {
-  for (int k = 0; k < 6; k++) g->strain[k][i] = 0.0;
-  for (int k = 0; k < 9; k++) g->R[k][i] = k % 4 == 0;
+  return (s->stretch2[i] <= SMALL_STRETCH * SMALL_STRETCH) & (s->turn2[i] <= SMALL_TURN * SMALL_TURN);
 }
 
-static int proper(const struct corotate_group *g, int i)
+static inline int all_small(const struct step *s)
 {
-  double dF[9];
-  for (int k = 0; k < 9; k++) dF[k] = g->G[k][i] + (k % 4 == 0);
+  int small = 1;
+  for (int i = 0; i < LANES; i++) small &= is_small(s, i);
+  return small;
+}
+
+/* log U and R of a lane by eigenvalues; 0: there are none */
+static int decompose_lane(const struct step *s, int i, struct corotate_group *g)
+{
+  static const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
+  double           dF[9], E[3][3], value[3], V[3][3], half_log[3], root[3], log_U[3][3], U_inverse[3][3];
+  for (int k = 0; k < 9; k++) dF[k] = s->G[k][i] + (k % 4 == 0);
   double J = tensor_determinant(dF);
-  return isfinite(J) && J > 0.0;
-}
-
-static int split_lane(struct corotate_group *g, int i)
-{
-  double E[3][3] = {{g->E[XX][i], g->E[XY][i], g->E[XZ][i]},
-                    {g->E[XY][i], g->E[YY][i], g->E[YZ][i]},
-                    {g->E[XZ][i], g->E[YZ][i], g->E[ZZ][i]}};
-  double value[3], V[3][3], half_log[3], root[3], log_U[3][3], U_inverse[3][3];
+  if (!(J > 0.0) || isinf(J)) return 0;
+  for (int k = 0; k < 6; k++) E[row[k]][column[k]] = E[column[k]][row[k]] = s->E[k][i];
   eigen(E, value, V);
   for (int k = 0; k < 3; k++) {
     if (!(value[k] > -1.0) || isinf(value[k])) return 0;
@@ -72,26 +172,57 @@ static int split_lane(struct corotate_group *g, int i)
   }
   assemble(half_log, V, log_U);
   assemble(root, V, U_inverse);
-  static const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
   for (int k = 0; k < 6; k++) g->strain[k][i] = log_U[row[k]][column[k]];
   for (int r = 0; r < 3; r++)
-    for (int c = 0; c < 3; c++) {
-      double sum = U_inverse[r][c];
-      for (int k = 0; k < 3; k++) sum += g->G[3 * r + k][i] * U_inverse[k][c];
-      g->R[3 * r + c][i] = sum;
-    }
+    for (int c = 0; c < 3; c++)
+      g->R[3 * r + c][i] =
+          dF[3 * r] * U_inverse[0][c] + dF[3 * r + 1] * U_inverse[1][c] + dF[3 * r + 2] * U_inverse[2][c];
   return 1;
 }
 
-int corotate_split_large(int m, struct corotate_group *g)
+static void leave_unstrained(int i, struct corotate_group *g)
 {
-  int bad = 0;
-  for (int i = 0; i < m; i++) {
-    double size = g->E2[XX][i] + g->E2[YY][i] + g->E2[ZZ][i];
-    if (size <= COROTATE_SMALL * COROTATE_SMALL) continue;
-    if (proper(g, i) && split_lane(g, i)) continue;
-    unstrained(g, i);
-    bad++;
-  }
+  for (int k = 0; k < 6; k++) g->strain[k][i] = 0.0;
+  for (int k = 0; k < 9; k++) g->R[k][i] = k % 4 == 0;
+}
+
+int corotate_begin(int m, const double *dF, const double *stress, struct corotate_group *group)
+{
+  struct step       s;
+  struct polynomial log_U, root;
+  VECTOR            U_inverse[6];
+  int               bad = 0;
+  load(m, dF, stress, &s, group);
+  stretch(&s);
+  square(&s);
+  series(&s, &log_U, &root);
+  evaluate(&s, &log_U, group->strain);
+  evaluate(&s, &root, U_inverse);
+  rotation(&s, U_inverse, group->R);
+  if (all_small(&s)) return 0;
+  for (int i = 0; i < m; i++)
+    if (!is_small(&s, i) && !decompose_lane(&s, i, group)) {
+      leave_unstrained(i, group);
+      bad++;
+    }
   return bad;
+}
+
+void corotate_end(int m, struct corotate_group *group, double *stress)
+{
+  const VECTOR *R = group->R, *S = group->stress;
+  VECTOR        T[9], turned[6]; /* R S, R S R^T */
+  for (int r = 0; r < 9; r += 3) {
+    T[r] = R[r] * S[XX] + R[r + 1] * S[XY] + R[r + 2] * S[XZ];
+    T[r + 1] = R[r] * S[XY] + R[r + 1] * S[YY] + R[r + 2] * S[YZ];
+    T[r + 2] = R[r] * S[XZ] + R[r + 1] * S[YZ] + R[r + 2] * S[ZZ];
+  }
+  turned[XX] = T[0] * R[0] + T[1] * R[1] + T[2] * R[2];
+  turned[YY] = T[3] * R[3] + T[4] * R[4] + T[5] * R[5];
+  turned[ZZ] = T[6] * R[6] + T[7] * R[7] + T[8] * R[8];
+  turned[XY] = T[0] * R[3] + T[1] * R[4] + T[2] * R[5];
+  turned[YZ] = T[3] * R[6] + T[4] * R[7] + T[5] * R[8];
+  turned[XZ] = T[0] * R[6] + T[1] * R[7] + T[2] * R[8];
+  for (int i = 0; i < m; i++)
+    for (int k = 0; k < 6; k++) stress[6 * i + k] = turned[k][i];
 }

@@ -5,22 +5,23 @@
 
 static const struct param params[] = {ISOTROPIC_PARAMS(struct isotropic), PARAM_END};
 
-static inline void answer(const void *prm, struct corotate_group *g)
-{
-  double lambda = isotropic_lambda(prm), twice_mu = 2.0 * isotropic_shear(prm);
-  for (int i = 0; i < LANES; i++) {
-    double volume = lambda * (g->strain[XX][i] + g->strain[YY][i] + g->strain[ZZ][i]);
-    for (int k = 0; k < 3; k++) g->stress[k][i] += volume + twice_mu * g->strain[k][i];
-    for (int k = 3; k < 6; k++) g->stress[k][i] += twice_mu * g->strain[k][i];
-  }
-}
-
 static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
                   double *work)
 {
+  double lambda = isotropic_lambda(prm), twice_mu = 2.0 * isotropic_shear(prm);
+  int    bad = 0;
   (void)dt, (void)F, (void)history;
   if (work) memset(work, 0, (size_t)n * sizeof *work);
-  return corotate_update(prm, n, dF, stress, answer);
+  for (int p = 0; p < n; p += LANES) {
+    struct corotate_group g;
+    int                   m = corotate_members(n, p);
+    bad += corotate_begin(m, &dF[9L * p], &stress[6L * p], &g);
+    VECTOR volume = lambda * (g.strain[XX] + g.strain[YY] + g.strain[ZZ]);
+    for (int k = 0; k < 3; k++) g.stress[k] += volume;
+    for (int k = 0; k < 6; k++) g.stress[k] += twice_mu * g.strain[k];
+    corotate_end(m, &g, &stress[6L * p]);
+  }
+  return bad;
 }
 
 /* The acoustic tensor of a Cauchy stress that turns with the material: longitudinal E_oed, shear mu + (s_N - s_m)/2;
