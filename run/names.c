@@ -32,7 +32,8 @@ static const char *nearest(const struct names *names, const char *wrong)
   const char *best = NULL;
   int         least = (int)strlen(wrong) / 2 + 2;
   for (int i = 0; i < names->n; i++) {
-    int distance = edit_distance(wrong, names->name[i]);
+    bool begins = *wrong && strncmp(names->name[i], wrong, strlen(wrong)) == 0;
+    int  distance = begins ? 1 : edit_distance(wrong, names->name[i]);
     if (distance < least) {
       least = distance;
       best = names->name[i];
@@ -43,6 +44,8 @@ static const char *nearest(const struct names *names, const char *wrong)
 
 void names_add(struct names *names, const char *name)
 {
+  for (int i = 0; i < names->n; i++)
+    if (strcmp(names->name[i], name) == 0) return;
   if (names->n < (int)(sizeof names->name / sizeof *names->name)) names->name[names->n++] = name;
 }
 

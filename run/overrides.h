@@ -2,6 +2,8 @@
 #ifndef RUN_OVERRIDES_H
 #define RUN_OVERRIDES_H
 
+#include "core/scene.h"
+#include "run/files.h"
 #include "run/options.h"
 #include "run/sections.h"
 

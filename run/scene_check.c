@@ -72,12 +72,9 @@ static enum status check_sides(struct reader *reader, const struct scene *scene)
   TRY(check_periodic(reader, scene, "solid", scene->solid_side));
   TRY(check_periodic(reader, scene, "fluid", scene->fluid_side));
   for (int side = 0; side < SIDES; side++) {
-    bool solid = scene->solid_side[side].kind != SIDE_SLIP, fluid = scene->fluid_side[side].kind != SIDE_SLIP;
+    bool fluid = scene->fluid_side[side].kind != SIDE_SLIP;
     bool solid_turns = scene->solid_side[side].kind == SIDE_PERIODIC,
          fluid_turns = scene->fluid_side[side].kind == SIDE_PERIODIC;
-    if (side >= 2 * scene->dim && (solid || fluid))
-      return reader_fail(at(reader, "boundary.%s.%s", solid ? "solid" : "fluid", side_names[side]),
-                         "the grid has no z; remove it or give grid.min three numbers");
     if (fluid && !scene->fluid.present)
       return reader_fail(at(reader, "boundary.fluid.%s", side_names[side]),
                          "the scene has no fluid; remove it or add a \"fluid\"");
@@ -181,30 +178,24 @@ static enum status check_metric_source(struct reader *reader, const struct scene
   return reader_unknown(at(reader, "metrics.%s.gauge", m->name), "gauge (a line is \"name.0\")", m->gauge, &names);
 }
 
-/** null: the end of the run, in the metric's own unit of time. */
-static enum status complete_times(struct reader *reader, const struct scene *scene, struct metric *m,
-                                  const struct reference_use *use)
+static enum status check_times(struct reader *reader, const struct metric *m, const struct reference_use *use)
 {
-  double unit = 1;
   if (m->scaled_time && (!use || !use->reference->time_scale))
     return reader_fail(at(reader, "metrics.%s.time", m->name),
                        "\"scaled\" needs a reference that has a unit of time; use \"seconds\"");
-  if (m->scaled_time) unit = use->reference->time_scale(use->params);
-  if (isinf(m->at)) m->at = scene->time_end / unit;
-  if (isinf(m->to)) m->to = scene->time_end / unit;
   if (m->from > m->to)
     return reader_fail(at(reader, "metrics.%s.from", m->name), "%.10g lies after \"to\", %.10g; exchange them", m->from,
                        m->to);
   return OK;
 }
 
-static enum status check_metrics(struct reader *reader, struct scene *scene)
+static enum status check_metrics(struct reader *reader, const struct scene *scene)
 {
   for (int i = 0; i < scene->n_metrics; i++) {
     const struct reference_use *use = NULL;
     TRY(check_metric_source(reader, scene, &scene->metrics[i]));
     TRY(check_reference(reader, scene, &scene->metrics[i], &use));
-    TRY(complete_times(reader, scene, &scene->metrics[i], use));
+    TRY(check_times(reader, &scene->metrics[i], use));
   }
   return OK;
 }

@@ -6,7 +6,7 @@
 #include "run/params.h"
 
 /** Whole cells, one-cell axes, points per axis, periodic pairs, materials that suit fluid and drag, metrics. Completes
- *  the scene: cells, max, middle of a null coordinate, times of metrics. */
+ *  the scene: cells, max, middle of a null coordinate. */
 enum status scene_check(struct reader *reader, struct scene *scene) MUST_CHECK;
 /** Solids inside the grid, not empty, not overlapping; loads on a solid; tracers and gauges inside the grid. */
 enum status scene_check_places(struct reader *reader, struct scene *scene) MUST_CHECK;

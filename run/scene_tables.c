@@ -10,15 +10,15 @@
 #define AT(type, member) offsetof(struct type, member)
 #define VALUE(name, kind, type, member, fallback, unit, meaning)                                                       \
   {                                                                                                                    \
-    name, ENTRY_VALUE, &value_##kind, NULL, AT(type, member), 0, fallback, NULL, NULL, unit, meaning                   \
+    name, ENTRY_VALUE, &value_##kind, NULL, AT(type, member), 0, fallback, NULL, NULL, unit, meaning, false            \
   }
 #define SECTION(name, table, offset, fallback, meaning)                                                                \
   {                                                                                                                    \
-    name, ENTRY_SECTION, NULL, &table, offset, 0, fallback, NULL, NULL, "-", meaning                                   \
+    name, ENTRY_SECTION, NULL, &table, offset, 0, fallback, NULL, NULL, "-", meaning, false                            \
   }
 #define MAP(name, table, member, meaning)                                                                              \
   {                                                                                                                    \
-    name, ENTRY_MAP, NULL, &table, AT(scene, member), AT(scene, n_##member), "{}", NULL, NULL, "-", meaning            \
+    name, ENTRY_MAP, NULL, &table, AT(scene, member), AT(scene, n_##member), "{}", NULL, NULL, "-", meaning, false     \
   }
 #define ENTRY_END                                                                                                      \
   {                                                                                                                    \
@@ -129,13 +129,17 @@ static const struct section fluid_section = {.meaning = "liquid", .params = flui
 
 const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
+#define SIDE_3D(name, kind, side, meaning)                                                                             \
+  {                                                                                                                    \
+    name, ENTRY_VALUE, &value_##kind, NULL, AT(scene, side), 0, "slip", NULL, NULL, "-", meaning, true                 \
+  }
 #define SIDES_OF(kind, member)                                                                                         \
   VALUE("x_min", kind, scene, member[X_MIN], "slip", "-", "side at the lowest x"),                                     \
       VALUE("x_max", kind, scene, member[X_MAX], "slip", "-", "side at the highest x"),                                \
       VALUE("y_min", kind, scene, member[Y_MIN], "slip", "-", "side at the lowest y"),                                 \
       VALUE("y_max", kind, scene, member[Y_MAX], "slip", "-", "side at the highest y"),                                \
-      VALUE("z_min", kind, scene, member[Z_MIN], "slip", "-", "side at the lowest z; 3D only"),                        \
-      VALUE("z_max", kind, scene, member[Z_MAX], "slip", "-", "side at the highest z; 3D only"), ENTRY_END
+      SIDE_3D("z_min", kind, member[Z_MIN], "side at the lowest z"),                                                   \
+      SIDE_3D("z_max", kind, member[Z_MAX], "side at the highest z"), ENTRY_END
 
 static const struct entry   solid_sides[] = {SIDES_OF(side_solid, solid_side)};
 static const struct entry   fluid_sides[] = {SIDES_OF(side_fluid, fluid_side)};
@@ -214,7 +218,8 @@ static bool gauge_row(int i, struct row *row)
 static const struct choice  gauge_choice = {"kind", NULL, "kind of gauge: " GAUGE_WORDS, gauge_row, AT(gauge, kind),
                                             0,      NULL};
 static const struct entry   gauge_entries[] = {{"region", ENTRY_VALUE, &value_shape, NULL, AT(gauge, region), 0,
-                                                "everywhere", NULL, "integral|mean", "-", "region that is summed over"},
+                                                "everywhere", NULL, "integral|mean", "-", "region that is summed over",
+                                                false},
                                                ENTRY_END};
 static const struct section gauge_section = {.meaning = "number sampled over time",
                                              .size = sizeof(struct gauge),
@@ -279,7 +284,7 @@ static const struct param numerics_params[] = {
     PARAM_END};
 static const struct entry numerics_entries[] = {
     {"points_per_cell", ENTRY_VALUE, &value_points_per_cell, NULL, 0, 0, "4", "8", NULL, "-",
-     "points in a full cell: a square (2D) or cube (3D), or a list per axis"},
+     "points in a full cell: a square (2D) or cube (3D), or a list per axis", false},
     ENTRY_END};
 static const struct section numerics_section = {.meaning = "numerical choices; a section per module",
                                                 .params = numerics_params,
@@ -295,7 +300,7 @@ static const struct param output_params[] = {{"interval", PARAM_NUMBER, AT(outpu
                                               "wall time between checkpoints; 0: only when interrupted"},
                                              PARAM_END};
 static const struct entry output_entries[] = {
-    {"times", ENTRY_VALUE, &value_times, NULL, 0, 0, "[]", NULL, NULL, "s", "more snapshots at these times"},
+    {"times", ENTRY_VALUE, &value_times, NULL, 0, 0, "[]", NULL, NULL, "s", "more snapshots at these times", false},
     ENTRY_END};
 static const struct section output_section = {
     .meaning = "what is written, and when", .params = output_params, .entries = output_entries};

@@ -44,11 +44,12 @@ static enum status read_choice(struct reader *reader, const struct choice *choic
   return OK;
 }
 
-/** Whether an entry goes with the chosen kind. */
-static bool applies(const struct entry *entry, const struct row *row)
+/** Whether an entry goes with the dimension and the chosen kind. */
+static bool applies(const struct entry *entry, const struct row *row, int dim)
 {
   struct names names = {0};
   char         buffer[256];
+  if (entry->only_3d && dim == 2) return false;
   if (!entry->only) return true;
   names_add_words(&names, entry->only, buffer, sizeof buffer);
   for (int i = 0; i < names.n; i++)
@@ -64,12 +65,13 @@ static const char *given_by(const struct choice *choice, const char *param)
   return NULL;
 }
 
-static void collect_names(const struct section *section, const struct row *row, struct names *names)
+static void collect_names(const struct reader *reader, const struct section *section, const struct row *row,
+                          struct names *names)
 {
   if (section->choice) names_add(names, section->choice->key);
   names_add_table(names, section->params);
   for (const struct entry *e = section->entries; e && e->name; e++)
-    if (applies(e, row)) names_add(names, e->name);
+    if (applies(e, row, reader->dim)) names_add(names, e->name);
   for (const struct param *p = row->params; p && p->name; p++)
     if (!given_by(section->choice, p->name)) names_add(names, p->name);
   for (int i = 0; section->modules && all_modules[i]; i++)
@@ -87,7 +89,7 @@ static enum status check_keys(struct reader *reader, const struct section *secti
                               const cJSON *object)
 {
   struct names names = {0};
-  collect_names(section, row, &names);
+  collect_names(reader, section, row, &names);
   for (const cJSON *member = object->child; member; member = member->next) {
     const char *owner = given_by(section->choice, member->string);
     if (json_is_comment(member) || is_among(&names, member->string)) continue;
@@ -111,7 +113,7 @@ static enum status complete_entries(struct reader *reader, const struct section 
   for (const struct entry *e = section->entries; e && e->name; e++) {
     const char *fallback = entry_default(e, reader->dim);
     cJSON      *value = NULL;
-    if (!fallback || !applies(e, row) || json_member(object, e->name)) continue;
+    if (!fallback || !applies(e, row, reader->dim) || json_member(object, e->name)) continue;
     TRY(json_from_word(fallback, fallback, &value));
     TRY(json_add(object, e->name, value));
   }
@@ -194,7 +196,7 @@ static enum status read_entries(struct reader *reader, const struct section *sec
   for (const struct entry *e = section->entries; e && e->name; e++) {
     cJSON *value = json_member(object, e->name);
     bool   optional = e->kind == ENTRY_SECTION && !e->fallback;
-    if (!applies(e, row) || (optional && (!value || cJSON_IsNull(value)))) continue;
+    if (!applies(e, row, reader->dim) || (optional && (!value || cJSON_IsNull(value)))) continue;
     size_t mark = reader_enter(reader, e->name);
     if (!value) return reader_fail(reader, "is missing; give the %s", e->meaning);
     TRY(read_entry(reader, e, object, value, base));

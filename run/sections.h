@@ -28,6 +28,7 @@ struct entry {
       *fallback3;   /* as in struct param; the second for 3D where it differs. SECTION: NULL: optional */
   const char *only; /* "integral|mean": the choices it goes with; NULL: all */
   const char *unit, *meaning;
+  bool        only_3d; /* there is no such key in 2D */
 };
 
 /* One of the laws, or kinds, that a section may name. */
