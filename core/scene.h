@@ -110,7 +110,7 @@ struct metric {
   char         reference[NAME_LENGTH];/* "name.quantity"; empty: the value itself */
   struct function expected;           /* used when reference is empty */
   struct shape region;
-  double       at, from, to;          /* s, or in units of the reference's time scale */
+  double       at, from, to;          /* s, or in units of the reference's time scale; INFINITY: the end */
   bool         scaled_time;
   double       scale;                 /* result is divided by it; 0: by the reference's scale of that quantity */
   double       offset;                /* added to the gauge before comparing */
