@@ -132,7 +132,10 @@ cJSON *json_member(const cJSON *object, const char *name)
   return cJSON_IsObject(object) ? cJSON_GetObjectItemCaseSensitive(object, name) : NULL;
 }
 
-bool json_is_comment(const cJSON *member) { return strncmp(member->string, "//", 2) == 0; }
+bool json_is_comment(const cJSON *member)
+{
+  return strncmp(member->string, "//", 2) == 0 || strcmp(member->string, "$schema") == 0;
+}
 
 size_t json_name_length(const cJSON *object, const char *path)
 {
