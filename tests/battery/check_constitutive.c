@@ -1,7 +1,7 @@
 /* Every registered skeleton law: rest, objectivity, energy on closed cycles, wave speed, bad input, arrays. */
-#include "battery.h"
 #include "constitutive/constitutive.h"
 #include "core/tensor.h"
+#include "tests/battery/battery.h"
 
 #include <float.h>
 

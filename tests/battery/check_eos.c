@@ -1,6 +1,6 @@
 /* Every registered equation of state: inversion, derivatives against differences, sound speed, signs, arrays. */
-#include "battery.h"
 #include "eos/eos.h"
+#include "tests/battery/battery.h"
 
 #include <float.h>
 

@@ -1,6 +1,6 @@
 /* Every registered drag law: signs, limits, arrays; and each against figures from elsewhere. */
-#include "battery/battery.h"
 #include "coupling/drag.h"
+#include "tests/battery/battery.h"
 
 /* one state of a medium */
 struct state {
