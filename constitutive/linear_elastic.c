@@ -24,19 +24,20 @@ static int update(const void *prm, int n, double dt, const double *dF, const dou
   return bad;
 }
 
-/* The acoustic tensor of a Cauchy stress that turns with the material: longitudinal E_oed, shear mu + (s_N - s_m)/2;
- * with 2 (s_1 - s_3)^2 <= 4 dev:dev the sum below bounds both. */
+/* The acoustic tensor of a Cauchy stress that turns with the material: longitudinal E_oed, shear mu + (s_N - s_m)/2. As
+ * (s_1 - s_3)^2 <= 2 dev:dev, their sum is below E_oed + sqrt(dev:dev/2). One root and one quotient for all points. */
 static double wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history)
 {
-  double modulus = isotropic_oedometer(prm), largest = 0.0;
+  double largest = 0.0, lightest = INFINITY;
   (void)history;
   for (int p = 0; p < n; p++) {
     const double *s = &stress[6L * p];
     double        a = s[XX] - s[YY], b = s[YY] - s[ZZ], c = s[ZZ] - s[XX];
     double        dev = (a * a + b * b + c * c) / 3.0 + 2.0 * (s[XY] * s[XY] + s[YZ] * s[YZ] + s[XZ] * s[XZ]);
-    largest = fmax(largest, (modulus + sqrt(0.5 * dev)) / rb[p]);
+    largest = dev > largest ? dev : largest;
+    lightest = rb[p] < lightest ? rb[p] : lightest;
   }
-  return sqrt(largest);
+  return sqrt((isotropic_oedometer(prm) + sqrt(0.5 * largest)) / lightest);
 }
 
 /* s:s (1 + nu) - nu tr(s)^2 over 2 E */
