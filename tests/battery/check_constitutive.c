@@ -274,7 +274,7 @@ static double numerical_modulus(const struct point *p)
 /* The speed bounds the numerical tangent in strained states, and is sharp at the start. */
 static void bounds_wave_speed(struct point *p)
 {
-  const double rb = 1800.0, strains[4] = {0.0, 1e-3, 0.1, 0.3};
+  const double rb = 1800.0, strains[4] = {0.0, 1e-3, 0.1, 0.6};
   if (p->law->held) {
     ck_assert_double_eq(p->law->wave_speed(&p->prm, 1, &rb, p->stress, p->history), 0.0);
     return;
@@ -283,10 +283,8 @@ static void bounds_wave_speed(struct point *p)
     struct point strained = *p;
     uint64_t     seed = 6;
     double       dF[9];
-    for (int step = 0; step < 20; step++) {
-      random_step(&seed, strains[s] / 20.0, dF);
-      point_step(&strained, dF);
-    }
+    random_step(&seed, strains[s] / 20.0, dF);
+    for (int step = 0; step < 20; step++) point_step(&strained, dF);
     double c = p->law->wave_speed(&p->prm, 1, &rb, strained.stress, strained.history);
     double exact = sqrt(numerical_modulus(&strained) / rb);
     ck_assert_msg(c >= exact * (1.0 - 1e-6), "%s at strain %g: speed %g is below %g", p->law->name, strains[s], c,
