@@ -73,6 +73,18 @@ struct box grid_all(const struct grid *g)
   return b;
 }
 
+int grid_node_offsets(const struct grid *g, int axis, long *offset)
+{
+  int n = 0;
+  for (int corner = 0; corner < 1 << g->dim; corner++) {
+    if (axis >= 0 && corner >> axis & 1) continue;
+    offset[n] = 0;
+    for (int d = 0; d < g->dim; d++) offset[n] += (corner >> d & 1) * g->stride[d];
+    n++;
+  }
+  return n;
+}
+
 void grid_fill_periodic(const struct grid *g, int n, double *field)
 {
   for (int d = 0; d < g->dim; d++) {

@@ -25,6 +25,9 @@ struct module {
   /** Fills the initial state; every planned field is allocated and zero. */
   enum status (*create)(struct sim *, void *state);
   void (*destroy)(void *state);
+  /* numbers of the state that are not fields but are checkpointed: doubles at this offset */
+  size_t numbers_offset;
+  int    n_numbers;
   /** Adds what the module holds now (masses, momenta, energies) to the ledger. */
   void (*measure)(const struct sim *, struct ledger *);
 };

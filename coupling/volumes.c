@@ -57,17 +57,12 @@ enum status coupling_gather_media(struct sim *sim, double dt)
   return OK;
 }
 
-/* sum of a nodal quantity over the 2^(dim-1) nodes of a face, or the 2^dim nodes of a cell (axis = -1) */
-static inline double node_sum(const struct grid *g, const double *q, long at, int axis)
+/* mean of a nodal quantity over the nodes at `offset` */
+static inline double node_mean(const double *q, long at, int n, const long *offset)
 {
   double sum = 0;
-  for (int corner = 0; corner < 1 << g->dim; corner++) {
-    if (axis >= 0 && corner >> axis & 1) continue;
-    long node = at;
-    for (int d = 0; d < g->dim; d++) node += (corner >> d & 1) * g->stride[d];
-    sum += q[node];
-  }
-  return sum;
+  for (int i = 0; i < n; i++) sum += q[at + offset[i]];
+  return sum / n;
 }
 
 /* grains and skeleton per room at nodes; on a periodic axis the last plane copies the first */
@@ -92,8 +87,9 @@ static void cell_fractions(struct sim *sim, struct coupling *c)
 {
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
-  double             mean = 1.0 / (1 << g->dim);
-  FOR_BOX(g, cells, i) c->porosity_cc[i] = fmax(least_porosity, 1 - mean * node_sum(g, c->grains_share_nc, i, -1));
+  long               offset[8];
+  int                n = grid_node_offsets(g, -1, offset);
+  FOR_BOX(g, cells, i) c->porosity_cc[i] = fmax(least_porosity, 1 - node_mean(c->grains_share_nc, i, n, offset));
 }
 
 /* the medium's own porosity is grains over skeleton: a half-filled face has half the resistance, not that of a loose soil */
@@ -101,11 +97,12 @@ static void face_fractions(struct sim *sim, struct coupling *c, int axis)
 {
   const struct grid *g = &sim->grid;
   struct box         faces = grid_faces(g, axis);
-  double             mean = 2.0 / (1 << g->dim);
+  long               offset[8];
+  int                n = grid_node_offsets(g, axis, offset);
   double            *porosity = c->porosity_fc + axis * g->size, *fill = c->fill_fc + axis * g->size, *medium = c->medium_porosity_fc + axis * g->size;
   FOR_BOX(g, faces, f)
   {
-    double grains = mean * node_sum(g, c->grains_share_nc, f, axis), bulk = mean * node_sum(g, c->fill_nc, f, axis);
+    double grains = node_mean(c->grains_share_nc, f, n, offset), bulk = node_mean(c->fill_nc, f, n, offset);
     porosity[f] = fmax(least_porosity, 1 - grains);
     fill[f] = bulk;
     medium[f] = bulk > 0 ? fmax(least_porosity, 1 - grains / bulk) : 1;

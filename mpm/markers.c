@@ -52,7 +52,7 @@ void mpm_move_markers(struct sim *sim, struct mpm *m, double dt)
       if (k < scene->n_loads) marker_force(sim, m, &scene->loads[k], i, sim->t + 0.5 * dt, force);
       for (int d = 0; d < dim; d++) {
         m->x_m[i * dim + d] += dt * vel[d];
-        m->work_loads += dt * vel[d] * force[d];
+        m->now.work_loads += dt * vel[d] * force[d];
       }
     }
 }

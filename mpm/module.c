@@ -127,7 +127,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   double            gravity[3];
   sim_gravity(sim, sim->t, gravity);
   for (long p = 0; p < m->points->n; p++) measure_point(sim, m, gravity, p, l);
-  l->v[LEDGER_work_loads] += m->work_loads;
+  l->v[LEDGER_work_loads] += m->now.work_loads;
 }
 
 const struct module module_mpm = {
@@ -141,5 +141,7 @@ const struct module module_mpm = {
     .count = count,
     .create = create,
     .destroy = destroy,
+    .numbers_offset = offsetof(struct mpm, now),
+    .n_numbers = sizeof(struct mpm_numbers) / sizeof(double),
     .measure = measure,
 };

@@ -13,13 +13,15 @@ struct mpm {
   const struct kernels *kernels;
   struct points        *points;
   double                mass_floor; /* kg: a node with less has no velocity */
-  double                wave_speed, speed; /* m/s, largest of all points, of the last step */
+  struct mpm_numbers {
+    double wave_speed, speed; /* m/s, largest of all points, of the last step */
+    double work_loads;        /* J, since the start */
+  } now;
   double               *run_speed;         /* [n_runs][2] what they were made of */
   long                 *marker_end;        /* [loads + tracers] markers of item i end here */
   double               *marker_area;       /* [markers] m2 (m in 2D); 0: tracer */
   double              (*marker_normal)[3]; /* outward, for pressure loads */
   int                   n_markers;
-  double                work_loads;        /* J */
   bool                  moves;             /* some material is not held */
 };
 

@@ -54,10 +54,10 @@ static int update_batch(struct mpm *m, const struct material *material, int dim,
 
 static void reduce_speeds(struct mpm *m)
 {
-  m->wave_speed = m->speed = 0;
+  m->now.wave_speed = m->now.speed = 0;
   for (long r = 0; r < m->points->n_runs; r++) {
-    m->wave_speed = fmax(m->wave_speed, m->run_speed[2 * r]);
-    m->speed = fmax(m->speed, m->run_speed[2 * r + 1]);
+    m->now.wave_speed = fmax(m->now.wave_speed, m->run_speed[2 * r]);
+    m->now.speed = fmax(m->now.speed, m->run_speed[2 * r + 1]);
   }
 }
 
@@ -81,7 +81,7 @@ enum status mpm_update_stress(struct sim *sim, double dt)
   }
   if (bad) return FAIL(ERR_DIVERGED, "mpm: %ld points could not be strained at t = %g s; lower numerics.dt_factor", bad, sim->t);
   reduce_speeds(m);
-  if (!(m->speed < INFINITY)) return FAIL(ERR_DIVERGED, "mpm: a solid point's velocity is not finite at t = %g s; lower numerics.dt_factor", sim->t);
+  if (!(m->now.speed < INFINITY)) return FAIL(ERR_DIVERGED, "mpm: a solid point's velocity is not finite at t = %g s; lower numerics.dt_factor", sim->t);
   return OK;
 }
 
@@ -90,7 +90,7 @@ double mpm_stress_dt(const struct sim *sim)
 {
   const struct mpm *m = mpm_of(sim);
   double            h = sim->grid.h;
-  return fmin(sim->scene->numerics.dt_factor * h / m->wave_speed, m->speed > 0 ? 0.5 * h / m->speed : INFINITY);
+  return fmin(sim->scene->numerics.dt_factor * h / m->now.wave_speed, m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
 }
 
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m)

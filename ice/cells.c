@@ -1,0 +1,122 @@
+/* Cells take the momentum of their faces, and the flux carries mass. theory 4.6 */
+#include "ice/ice.h"
+
+#include "core/parallel.h"
+
+#include <math.h>
+
+/* each face hands half of its impulse n rho V du to each of its cells: nothing is lost between them */
+static void move_cells(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             half = 0.5 * grid_cell_volume(g);
+  FOR_BOX(g, cells, c)
+  {
+    if (!(ice->wet_cc[c] > 0)) continue;
+    for (int d = 0; d < g->dim; d++) {
+      double impulse = 0;
+      for (int high = 0; high < 2; high++) {
+        long f = c + high * g->stride[d], q = d * g->size + f;
+        if (ice_face_active(ice->kind[q]))
+          impulse += half * ice->porosity_fc[q] * ice_face_density(ice, f - g->stride[d], f) * (ice->u_fc[q] - ice->u_old_fc[q]);
+      }
+      ice->vel_cc[c * g->dim + d] += impulse / ice->mass_cc[c];
+    }
+  }
+}
+
+/* mass through a face in this step, kg, upwards; a surface only rises or falls with its cell */
+static double carried_mass(const struct sim *sim, const struct ice *ice, int axis, long f, double dt)
+{
+  long           q = axis * sim->grid.size + f, low = f - sim->grid.stride[axis];
+  enum face_kind kind = ice->kind[q];
+  if (kind != FACE_INNER && kind != FACE_PRESSURE && kind != FACE_INLET) return 0;
+  return dt * ice_face_area(&sim->grid) * ice->carried_fc[q] * ice_face_density(ice, low, f);
+}
+
+static void carry_mass(struct sim *sim, struct ice *ice, double dt)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  FOR_BOX(g, cells, c)
+  for (int d = 0; d < g->dim; d++)
+    ice->mass_cc[c] += carried_mass(sim, ice, d, c, dt) - carried_mass(sim, ice, d, c + g->stride[d], dt);
+}
+
+/* net mass through the sides of the grid */
+static double leaving_mass(const struct sim *sim, const struct ice *ice, double dt)
+{
+  const struct grid *g = &sim->grid;
+  double             out = 0;
+  for (int side = 0; side < 2 * g->dim; side++) {
+    int        axis = side / 2;
+    struct box b = grid_cells(g);
+    if (g->periodic[axis]) continue;
+    b.lo[axis] = side % 2 ? g->n[axis] : 0;
+    b.hi[axis] = b.lo[axis] + 1;
+    FOR_BOX_SERIAL(g, b, f) out += (side % 2 ? 1 : -1) * carried_mass(sim, ice, axis, f, dt);
+  }
+  return out;
+}
+
+/* what the new face velocity has beyond the mean of its cells; without this memory P checkerboards as dt shrinks */
+static void remember_faces(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX(g, faces, f)
+    {
+      long q = axis * g->size + f, low = f - g->stride[axis];
+      ice->beyond_fc[q] = 0;
+      if (ice->kind[q] != FACE_INNER) continue;
+      double ml = ice->mass_cc[low], mh = ice->mass_cc[f];
+      ice->beyond_fc[q] =
+          ice->u_fc[q] - (ml * ice->vel_cc[low * g->dim + axis] + mh * ice->vel_cc[f * g->dim + axis]) / (ml + mh);
+    }
+  }
+}
+
+/* fastest face velocity, and the defect as it was at the start of the step */
+static enum status watch(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             fastest = 0, square = 0, most = 0, wet = 0;
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    if (!(ice->wet_cc[c] > 0)) continue;
+    bool surface = false;
+    for (int d = 0; d < g->dim; d++)
+      for (int high = 0; high < 2; high++) {
+        long q = d * g->size + c + high * g->stride[d];
+        fastest = isfinite(ice->u_fc[q]) ? fmax(fastest, fabs(ice->u_fc[q])) : INFINITY;
+        surface = surface || ice->kind[q] == FACE_SURFACE;
+      }
+    if (surface) continue;
+    square += ice->defect_cc[c] * ice->defect_cc[c];
+    most = fmax(most, fabs(ice->defect_cc[c]));
+    wet++;
+  }
+  ice->now.speed = fastest;
+  ice->now.defect_rms = wet > 0 ? sqrt(square / wet) : 0;
+  ice->now.defect_max = most;
+  sim->defect_rms_max = fmax(sim->defect_rms_max, ice->now.defect_rms);
+  sim->defect_max = fmax(sim->defect_max, most);
+  if (fastest < INFINITY) return OK;
+  return FAIL(ERR_DIVERGED, "ice: a fluid velocity is not finite at t = %g s; lower numerics.dt_factor", sim->t);
+}
+
+enum status ice_update_cells(struct sim *sim, double dt)
+{
+  struct ice *ice = ice_of(sim);
+  TRY(watch(sim, ice));
+  move_cells(sim, ice);
+  carry_mass(sim, ice, dt);
+  ice->now.mass_out += leaving_mass(sim, ice, dt);
+  grid_fill_periodic(&sim->grid, 1, ice->mass_cc);
+  grid_fill_periodic(&sim->grid, sim->grid.dim, ice->vel_cc);
+  remember_faces(sim, ice);
+  return OK;
+}

@@ -1,0 +1,214 @@
+/* Where the liquid is at the start, its pressure, and what every face is. theory 4.1 */
+#include "ice/ice.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "coupling/coupling.h"
+#include "eos/eos.h"
+#include "mpm/at_rest.h"
+#include "mpm/mpm.h"
+
+#include <math.h>
+
+/* share of a cell inside the fluid region, from SAMPLES^dim places */
+static double filled_share(const struct sim *sim, long cell)
+{
+  enum { SAMPLES = 4 };
+  int    dim = sim->grid.dim, inside = 0, all = dim == 3 ? SAMPLES * SAMPLES * SAMPLES : SAMPLES * SAMPLES;
+  double centre[3], x[3];
+  grid_centre(&sim->grid, cell, centre);
+  for (int q = 0; q < all; q++) {
+    for (int d = 0, left = q; d < 3; d++, left /= SAMPLES)
+      x[d] = centre[d] + (d < dim ? ((left % SAMPLES + 0.5) / SAMPLES - 0.5) * sim->grid.h : 0);
+    inside += shape_contains(&sim->scene->fluid.region, x);
+  }
+  return (double)inside / all;
+}
+
+static double density_at(const struct sim *sim, double P)
+{
+  double rho;
+  sim->scene->fluid.eos->density(sim->scene->fluid.eos_params, 1, &P, NULL, &rho);
+  return rho;
+}
+
+static void fill_cells(struct sim *sim, struct ice *ice)
+{
+  struct box cells = grid_cells(&sim->grid);
+  int        dim = sim->grid.dim;
+  FOR_BOX_SERIAL(&sim->grid, cells, c)
+  {
+    double share = filled_share(sim, c), x[3];
+    if (share <= 0.5) continue;
+    grid_centre(&sim->grid, c, x);
+    ice->wet_cc[c] = 1;
+    ice->P_cc[c] = function_value(&sim->scene->fluid.pressure, x, 0);
+    ice->mass_cc[c] = share; /* becomes a mass when the pressure is known */
+    for (int d = 0; d < dim; d++) ice->vel_cc[c * dim + d] = function_value(&sim->scene->fluid.velocity[d], x, 0);
+  }
+  grid_fill_periodic(&sim->grid, 1, ice->wet_cc);
+}
+
+static enum face_kind side_kind(const struct side_condition *side)
+{
+  return side->kind == SIDE_PRESSURE || side->kind == SIDE_OPEN ? FACE_PRESSURE : side->kind == SIDE_VELOCITY ? FACE_INLET : FACE_CLOSED;
+}
+
+static enum face_kind classify(const struct sim *sim, const struct ice *ice, int axis, long f)
+{
+  const struct grid *g = &sim->grid;
+  int                place[3], wet = (ice->wet_cc[f] > 0) + (ice->wet_cc[f - g->stride[axis]] > 0);
+  grid_place(g, f, place);
+  bool low = place[axis] == 0, high = place[axis] == g->n[axis];
+  if ((low || high) && !g->periodic[axis]) return wet ? side_kind(&sim->scene->fluid_side[2 * axis + high]) : FACE_CLOSED;
+  return wet == 2 ? FACE_INNER : wet == 1 ? FACE_SURFACE : FACE_VOID;
+}
+
+static void classify_faces(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  bool               fixed = false;
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      enum face_kind kind = classify(sim, ice, axis, f);
+      ice->kind[axis * g->size + f] = (unsigned char)kind;
+      ice->surface = ice->surface || kind == FACE_SURFACE;
+      fixed = fixed || kind == FACE_SURFACE || kind == FACE_PRESSURE;
+    }
+  }
+  ice->singular = !fixed && isinf(sim->scene->fluid.bulk_modulus);
+}
+
+/* pressure of a cell whose upper neighbour (against gravity) has `above`, with the face density of the scheme: exactly in
+ * balance. The density depends on the pressure a little, hence the iteration */
+static double pressure_below(const struct sim *sim, double above, double weight)
+{
+  double P = above + weight * density_at(sim, above);
+  for (int i = 0; i < 20; i++) P = above + weight * 0.5 * (density_at(sim, above) + density_at(sim, P));
+  return P;
+}
+
+/* first pressure below a surface or a side with a given pressure */
+static double pressure_under(const struct sim *sim, double outside, double weight)
+{
+  double P = outside + weight * density_at(sim, outside);
+  for (int i = 0; i < 20; i++) P = outside + weight * density_at(sim, P);
+  return P;
+}
+
+/* axis along which gravity acts, as 2 axis (downwards) or 2 axis + 1 (upwards); -1: none or oblique */
+static int gravity_axis(const struct sim *sim, double *g)
+{
+  double up[3];
+  at_rest_up(sim->scene, up, g);
+  for (int d = 0; d < sim->grid.dim && *g > 0; d++)
+    if (fabs(up[d]) > 1 - 1e-14) return 2 * d + (up[d] < 0);
+  return -1;
+}
+
+static enum status rest_pressure_of(const struct sim *sim, struct ice *ice, long c, int code, double g)
+{
+  const struct grid *grid = &sim->grid;
+  int                axis = code / 2;
+  long               up = code % 2 ? -grid->stride[axis] : grid->stride[axis], f = code % 2 ? c : c + up;
+  enum face_kind     kind = ice->kind[axis * grid->size + f];
+  if (kind == FACE_INNER) {
+    ice->P_cc[c] = pressure_below(sim, ice->P_cc[c + up], g * grid->h);
+    return OK;
+  }
+  if (kind == FACE_SURFACE || kind == FACE_PRESSURE) {
+    double outside = ice_outside_pressure(sim, ice, axis, f, 0);
+    ice->P_cc[c] = pressure_under(sim, outside, g * grid->h * ice_face_distance(sim, ice, axis, f));
+    return OK;
+  }
+  struct rest rest;
+  double      x[3];
+  grid_centre(grid, c, x);
+  TRY(at_rest_column(sim->scene, x, &rest));
+  ice->P_cc[c] = rest.pressure;
+  return OK;
+}
+
+/* from the top down, plane by plane */
+static enum status rest_pressures(struct sim *sim, struct ice *ice)
+{
+  const struct grid *grid = &sim->grid;
+  double             g;
+  int                code = gravity_axis(sim, &g), axis = code < 0 ? 0 : code / 2, n = grid->n[axis];
+  if (sim->scene->start != START_AT_REST || g == 0) return OK;
+  for (int k = 0; k < n; k++) {
+    struct box plane = grid_cells(grid);
+    plane.lo[axis] = code % 2 == 1 ? k : n - 1 - k;
+    plane.hi[axis] = plane.lo[axis] + 1;
+    FOR_BOX_SERIAL(grid, plane, c)
+    {
+      if (ice->wet_cc[c] > 0 && code >= 0) TRY(rest_pressure_of(sim, ice, c, code, g));
+      if (ice->wet_cc[c] > 0 && code < 0) {
+        struct rest rest;
+        double      x[3];
+        grid_centre(grid, c, x);
+        TRY(at_rest_column(sim->scene, x, &rest));
+        ice->P_cc[c] = rest.pressure;
+      }
+    }
+  }
+  return OK;
+}
+
+/* shares become masses; densities serve the surface distances until the first step computes them */
+static void weigh_cells(struct sim *sim, struct ice *ice, bool with_pressure)
+{
+  struct box cells = grid_cells(&sim->grid);
+  double     V = grid_cell_volume(&sim->grid);
+  FOR_BOX_SERIAL(&sim->grid, cells, c)
+  if (ice->wet_cc[c] > 0) {
+    double rho = density_at(sim, with_pressure ? ice->P_cc[c] : 0), old = ice->rho_cc[c];
+    ice->mass_cc[c] *= with_pressure ? rho / old : rho * V * ice->porosity_cc[c];
+    ice->rho_cc[c] = rho;
+  }
+}
+
+/* fluxes of the starting velocity: theta < 1 needs the old ones in its first step */
+static void start_fluxes(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  int                dim = g->dim;
+  grid_fill_periodic(g, dim, ice->vel_cc);
+  for (int axis = 0; axis < dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      long   q = axis * g->size + f, low = f - g->stride[axis];
+      double wet = ice->wet_cc[f] + ice->wet_cc[low];
+      if (!ice_face_active(ice->kind[q])) continue;
+      double u = (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
+      ice->water_fc[q] = ice->flux_fc[q] = ice->porosity_fc[q] * u;
+    }
+  }
+}
+
+enum status ice_create(struct sim *sim, void *state)
+{
+  struct ice      *ice = state;
+  struct coupling *c = coupling_of(sim);
+  long             faces = sim->grid.size * sim->grid.dim;
+  ice->params = scene_module_params(sim->scene, &module_ice);
+  ice->skeleton = c != NULL;
+  ice->moves = c && mpm_solid_moves(sim->scene);
+  TRY(NEW(&ice->kind, faces));
+  TRY(NEW(&ice->one, faces));
+  for (long f = 0; f < faces; f++) ice->one[f] = 1;
+  ice->porosity_cc = c ? c->porosity_cc : ice->one;
+  ice->porosity_fc = c ? c->porosity_fc : ice->one;
+  fill_cells(sim, ice);
+  classify_faces(sim, ice);
+  weigh_cells(sim, ice, false);
+  TRY(rest_pressures(sim, ice));
+  weigh_cells(sim, ice, true);
+  start_fluxes(sim, ice);
+  static const enum linear_method method[] = {
+      [SOLVER_AUTO] = LINEAR_AUTO, [SOLVER_HYPRE] = LINEAR_HYPRE, [SOLVER_DIRECT] = LINEAR_DIRECT};
+  return linear_create(&sim->grid, method[sim->scene->numerics.pressure_solver], &ice->linear);
+}

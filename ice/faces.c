@@ -1,0 +1,205 @@
+/* Faces: distances, gradients of the old pressure, predicted velocities. theory 4.2 */
+#include "ice/ice.h"
+
+#include "core/parallel.h"
+#include "coupling/coupling.h"
+#include "eos/eos.h"
+#include "mpm/mpm.h"
+
+#include <math.h>
+#include <string.h>
+
+/* distance to the surface from a cell that is filled to the share `fill`: theory 4.1; a sliver would make the matrix stiff */
+static const double nearest_surface = 0.05, farthest_surface = 1.5;
+
+double ice_face_area(const struct grid *g) { return grid_cell_volume(g) / g->h; }
+
+double ice_face_density(const struct ice *ice, long low, long high)
+{
+  bool l = ice->wet_cc[low] > 0, h = ice->wet_cc[high] > 0;
+  return l && h ? 0.5 * (ice->rho_cc[low] + ice->rho_cc[high]) : ice->rho_cc[l ? low : high];
+}
+
+double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face)
+{
+  const struct grid *g = &sim->grid;
+  switch (ice->kind[axis * g->size + face]) {
+  case FACE_SURFACE: {
+    long   c = ice->wet_cc[face] > 0 ? face : face - g->stride[axis];
+    double fill = ice->mass_cc[c] / (ice->rho_cc[c] * grid_cell_volume(g)) + 1 - ice->porosity_cc[c];
+    return fmin(farthest_surface, fmax(nearest_surface, fill - 0.5));
+  }
+  case FACE_PRESSURE: return 0.5;
+  default: return 1;
+  }
+}
+
+double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int axis, long face, double t)
+{
+  const struct grid *g = &sim->grid;
+  if (ice->kind[axis * g->size + face] != FACE_PRESSURE) return 0;
+  int    place[3];
+  double x[3];
+  grid_place(g, face, place);
+  grid_face(g, face, axis, x);
+  return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].pressure, x, t);
+}
+
+/* density from the carried pressure, row by row; how far mass and pressure disagree */
+enum status ice_update_properties(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct ice         *ice = ice_of(sim);
+  const struct grid  *g = &sim->grid;
+  const struct fluid *fluid = &sim->scene->fluid;
+  struct box          cells = grid_cells(g);
+  double              V = grid_cell_volume(g);
+  PARALLEL_FOR
+  for (long r = 0; r < box_rows(&cells); r++) {
+    long c0 = box_row(g, &cells, r);
+    fluid->eos->density(fluid->eos_params, g->n[0], ice->P_cc + c0, NULL, ice->rho_cc + c0);
+    for (long c = c0; c < c0 + g->n[0]; c++)
+      ice->defect_cc[c] = ice->wet_cc[c] > 0 ? ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * V) - 1 : 0;
+  }
+  grid_fill_periodic(g, 1, ice->P_cc);
+  grid_fill_periodic(g, 1, ice->rho_cc);
+  grid_fill_periodic(g, 1, ice->mass_cc);
+  grid_fill_periodic(g, g->dim, ice->vel_cc);
+  return OK;
+}
+
+/* velocity of the fluid at a face: mass-weighted mean of its wet cells, and a share of what it had beyond that */
+static double face_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
+{
+  const struct grid *g = &sim->grid;
+  long               low = f - g->stride[axis];
+  double             ml = ice->wet_cc[low] * ice->mass_cc[low], mh = ice->wet_cc[f] * ice->mass_cc[f];
+  double             mean = (ml * ice->vel_cc[low * g->dim + axis] + mh * ice->vel_cc[f * g->dim + axis]) / (ml + mh);
+  return mean + ice->params->memory * ice->beyond_fc[axis * g->size + f];
+}
+
+enum status ice_predict_faces(struct sim *sim, double dt)
+{
+  struct ice        *ice = ice_of(sim);
+  const struct grid *g = &sim->grid;
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    long       base = axis * g->size;
+    FOR_BOX(g, faces, f)
+    {
+      ice->gradP_fc[base + f] = ice->u_old_fc[base + f] = ice->s_old_fc[base + f] = 0;
+      if (!ice_face_active(ice->kind[base + f])) continue;
+      long   low = f - g->stride[axis];
+      double outside = ice_outside_pressure(sim, ice, axis, f, sim->t + dt);
+      double high_P = ice->wet_cc[f] > 0 ? ice->P_cc[f] : outside, low_P = ice->wet_cc[low] > 0 ? ice->P_cc[low] : outside;
+      ice->gradP_fc[base + f] = (high_P - low_P) / (ice_face_distance(sim, ice, axis, f) * g->h);
+      ice->u_old_fc[base + f] = face_velocity(sim, ice, axis, f);
+    }
+  }
+  return OK;
+}
+
+/* mean over the n faces at -offset around a node that are not closed */
+static inline double faces_of_node(const unsigned char *kind, const double *q, long node, int n, const long *offset)
+{
+  double total = 0;
+  int    open = 0;
+  for (int i = 0; i < n; i++) {
+    if (kind[node - offset[i]] == FACE_CLOSED) continue;
+    total += q[node - offset[i]];
+    open++;
+  }
+  return open ? total / open : 0;
+}
+
+/* skeleton nodes with the old pressure gradient along one axis */
+static void predict_nodes(struct sim *sim, struct ice *ice, int axis, double dt)
+{
+  const struct mpm      *m = mpm_of(sim);
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  struct box             nodes = grid_nodes(g);
+  const unsigned char   *kind = ice->kind + axis * g->size;
+  const double          *gradP = ice->gradP_fc + axis * g->size;
+  long                   offset[8];
+  int                    dim = g->dim, around = grid_node_offsets(g, axis, offset);
+  double                 gravity[3];
+  sim_gravity(sim, sim->t + 0.5 * dt, gravity);
+  FOR_BOX(g, nodes, n)
+  {
+    double *v = &ice->vel_star_nc[n * dim + axis], push = faces_of_node(kind, gradP, n, around, offset) * c->solid_nc[n];
+    *v = 0;
+    if (m->mass_nc[n] > m->mass_floor)
+      *v = m->vel_nc[n * dim + axis] + dt * ((m->force_nc[n * dim + axis] - push) / m->mass_nc[n] + gravity[axis]);
+  }
+}
+
+/* mass-weighted mean of the nodes at faces; room takes care of nodes on walls, which own half a volume */
+static void skeleton_faces(struct sim *sim, struct ice *ice, int axis)
+{
+  const struct mpm      *m = mpm_of(sim);
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  struct box             faces = grid_faces(g, axis);
+  long                   offset[8];
+  int                    dim = g->dim, corners = grid_node_offsets(g, axis, offset);
+  FOR_BOX(g, faces, f)
+  {
+    double mass = 0, momentum = 0;
+    for (int i = 0; i < corners; i++) {
+      long   node = f + offset[i];
+      double own = m->mass_nc[node] / c->room_nc[node];
+      mass += own;
+      momentum += own * ice->vel_star_nc[node * dim + axis];
+    }
+    ice->s_old_fc[axis * g->size + f] = mass > 0 ? momentum / mass : 0;
+  }
+}
+
+enum status ice_predict_solid(struct sim *sim, double dt)
+{
+  struct ice                  *ice = ice_of(sim);
+  const struct side_condition *sides = sim->scene->solid_side;
+  int                          dim = sim->grid.dim;
+  for (int axis = 0; axis < dim; axis++) predict_nodes(sim, ice, axis, dt);
+  boundary_velocity(&sim->grid, sides, sim->t + dt, ice->vel_star_nc);
+  boundary_ghosts(&mpm_of(sim)->kernel_grid, sides, dim, sim->t + dt, ice->vel_star_nc);
+  for (int axis = 0; axis < dim; axis++) skeleton_faces(sim, ice, axis);
+  return OK;
+}
+
+/* the fluid's and the faces' share of the time step: theory 4.7 */
+double ice_dt_limit(const struct sim *sim)
+{
+  const struct ice *ice = ice_of(sim);
+  double            gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
+  sim_gravity(sim, sim->t, gravity);
+  for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
+  return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
+}
+
+/* what the faces gave the skeleton, pressure and drag, goes back to its nodes as momentum: theory 4.6 */
+static void push_nodes(struct sim *sim, struct ice *ice, int axis, double dt)
+{
+  const struct mpm      *m = mpm_of(sim);
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  struct box             nodes = grid_nodes(g);
+  const unsigned char   *kind = ice->kind + axis * g->size;
+  const double          *gradP = ice->gradP_fc + axis * g->size, *s_new = ice->s_fc + axis * g->size, *s_old = ice->s_old_fc + axis * g->size;
+  long                   offset[8];
+  int                    dim = g->dim, around = grid_node_offsets(g, axis, offset);
+  FOR_BOX(g, nodes, n)
+  {
+    double pressure = -dt * faces_of_node(kind, gradP, n, around, offset) * c->solid_nc[n];
+    double change = faces_of_node(kind, s_new, n, around, offset) - faces_of_node(kind, s_old, n, around, offset);
+    c->dmom_nc[n * dim + axis] = m->mass_nc[n] > m->mass_floor ? pressure + m->mass_nc[n] * change : 0;
+  }
+}
+
+enum status ice_push_solid(struct sim *sim, double dt)
+{
+  struct ice *ice = ice_of(sim);
+  for (int axis = 0; axis < sim->grid.dim; axis++) push_nodes(sim, ice, axis, dt);
+  return OK;
+}

@@ -1,0 +1,104 @@
+/* Fluid path: one liquid in cells with an implicit pressure. Its stages, when each is needed, its fields. Read this first. */
+#include "ice/ice.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "eos/eos.h"
+#include "mpm/mpm.h"
+
+#include <math.h>
+
+static bool skeleton(const struct scene *sc) { return sc->n_solids > 0; }
+static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
+
+static const struct field fields[] = {
+#define FIELD(...) FIELD_ROW(struct ice, __VA_ARGS__)
+#include "ice/fields.def"
+#undef FIELD
+};
+
+static const struct stage stages[] = {
+    {"ice.update_properties", SLOT_volume_fractions, "P_cc mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1", "always", NULL,
+     ice_update_properties, NULL},
+    {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2", "always", NULL,
+     ice_predict_faces, ice_dt_limit},
+    {"ice.predict_solid", SLOT_predict, "mass_nc force_nc vel_nc solid_nc room_nc gradP_fc", "vel_star_nc s_old_fc", "4.2",
+     "a solid moves", moving, ice_predict_solid, NULL},
+    {"ice.resist_faces", SLOT_drag, "u_old_fc s_old_fc porosity_fc fill_fc medium_porosity_fc", "drag_fc", "2.2",
+     "there is a skeleton", skeleton, ice_resist_faces, NULL},
+    {"ice.eliminate_drag", SLOT_eliminate, "u_old_fc s_old_fc gradP_fc rho_cc", "u_fc s_fc u_reply_fc s_reply_fc", "4.3", "always",
+     NULL, ice_eliminate_drag, NULL},
+    {"ice.solve_pressure", SLOT_pressure, "u_fc s_fc u_reply_fc s_reply_fc flux_fc defect_cc",
+     "coupling_fc diagonal_cc rhs_cc dP_cc flux_fc", "4.4", "always", NULL, ice_solve_pressure, NULL},
+    {"ice.correct_faces", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc", "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4",
+     "always", NULL, ice_correct_faces, NULL},
+    {"ice.move_defect", SLOT_defect, "defect_cc diagonal_cc coupling_fc carried_fc", "shift_cc carried_fc", "4.5", "a solid moves",
+     moving, ice_move_defect, NULL},
+    {"ice.update_cells", SLOT_cells, "u_fc u_old_fc carried_fc mass_cc vel_cc", "mass_cc vel_cc beyond_fc", "4.6", "always", NULL,
+     ice_update_cells, NULL},
+    {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6", "a solid moves", moving,
+     ice_push_solid, NULL},
+};
+
+static const struct param params[] = {
+    {"memory", PARAM_NUMBER, offsetof(struct ice_params, memory), "-", 0, 1, "0.99", NULL,
+     "share of what a face velocity had beyond the mean of its cells that is kept for the next step"},
+    {"defect_share", PARAM_NUMBER, offsetof(struct ice_params, defect_share), "-", 0, 1, "1", NULL,
+     "share of the volume defect that a step makes good"},
+    {"defect_tolerance", PARAM_NUMBER, offsetof(struct ice_params, defect_tolerance), "-", 0, 1, "1e-9", NULL,
+     "volume that the defect's solve may leave, over the volume of a cell"},
+    PARAM_END};
+
+static void destroy(void *state)
+{
+  struct ice *ice = state;
+  linear_destroy(&ice->linear);
+  memory_free(&ice->kind);
+  memory_free(&ice->one);
+}
+
+static void measure(const struct sim *sim, struct ledger *l)
+{
+  const struct ice   *ice = ice_of(sim);
+  const struct grid  *g = &sim->grid;
+  const struct fluid *fluid = &sim->scene->fluid;
+  struct box          cells = grid_cells(g);
+  double              gravity[3], V = grid_cell_volume(g);
+  sim_gravity(sim, sim->t, gravity);
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    double x[3], m = ice->mass_cc[c], kappa;
+    if (!(ice->wet_cc[c] > 0)) continue;
+    grid_centre(g, c, x);
+    fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], NULL, &kappa);
+    l->v[LEDGER_mass_fluid] += m;
+    l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * V;
+    for (int d = 0; d < g->dim; d++) {
+      double v = ice->vel_cc[c * g->dim + d];
+      l->v[LEDGER_momentum_x + d] += m * v;
+      l->v[LEDGER_kinetic_fluid] += 0.5 * m * v * v;
+      l->v[LEDGER_potential] -= m * gravity[d] * x[d];
+    }
+  }
+  l->v[LEDGER_mass_fluid_out] += ice->now.mass_out;
+  l->v[LEDGER_volume_defect_rms] = ice->now.defect_rms;
+  l->v[LEDGER_volume_defect_max] = ice->now.defect_max;
+}
+
+const struct module module_ice = {
+    .name = "ice",
+    .is_fluid_path = true,
+    .meets_at = AT_FACE,
+    .params = params,
+    .params_size = sizeof(struct ice_params),
+    .fields = fields,
+    .n_fields = sizeof fields / sizeof *fields,
+    .stages = stages,
+    .n_stages = sizeof stages / sizeof *stages,
+    .state_size = sizeof(struct ice),
+    .create = ice_create,
+    .destroy = destroy,
+    .numbers_offset = offsetof(struct ice, now),
+    .n_numbers = sizeof(struct ice_numbers) / sizeof(double),
+    .measure = measure,
+};
