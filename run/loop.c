@@ -14,12 +14,12 @@
 #include "run/scene_read.h"
 #include "run/summary.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <errno.h>
 
 /* what is counted over the whole run, checkpointed as plain doubles */
 struct counts {
@@ -124,7 +124,7 @@ static enum status sample(struct run *r)
   struct ledger *l = &r->sim->ledger;
   const double  *start = r->sim->ledger_start.v;
   static const enum ledger_entry energies[] = {LEDGER_kinetic_solid, LEDGER_kinetic_fluid, LEDGER_potential, LEDGER_elastic, LEDGER_compression};
-  double         now = -l->v[LEDGER_work_loads], before = 0, scale;
+  double         now, before = 0, scale;
   sim_measure(r->sim, l);
   now = -l->v[LEDGER_work_loads];
   scale = fabs(now);
