@@ -1,0 +1,27 @@
+/* The table of verbs. */
+#include "run/verbs.h"
+
+#include "run/arguments.h"
+#include "run/schema.h"
+
+enum status verb_schema(const struct run_options *options)
+{
+  (void)options;
+  return schema_print(stdout);
+}
+
+const struct verb verbs[] = {
+    {"check", "SCENE", "--fluid --set --quick", "validates a scene and prints what would run",
+     "Every variant is validated too. Per fluid path: points, memory, time step, steps. Writes nothing.\n", verb_check},
+    {"explain", "SCENE", "--fluid --set --quick", "prints the plan: stages in order, and those left out",
+     "The number, the slot of core/step_order.def, the stage, what it reads and writes, its section of "
+     "docs/theory.md.\n",
+     verb_explain},
+    {"list", NULL, "--markdown", "prints shipped cases, laws, stages and every parameter", "", verb_list},
+    {"schema", NULL, NULL, "prints the JSON Schema of a scene",
+     "Draft 2020-12. Keep it beside your scenes, name it in \"$schema\", and an editor completes and checks keys.\n",
+     verb_schema},
+    {"new", "NAME", "--force", "writes a commented starter scene",
+     "NAME.json in the present folder: a saturated column under a load. Keys that start with // are comments.\n",
+     verb_new},
+    {.name = NULL}};

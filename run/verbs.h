@@ -1,0 +1,19 @@
+/* What the verbs of the command line do. */
+#ifndef RUN_VERBS_H
+#define RUN_VERBS_H
+
+#include "core/status.h"
+#include "run/options.h"
+
+/** Validates a scene with its variants and prints what would run, per fluid path. */
+enum status verb_check(const struct run_options *options) MUST_CHECK;
+/** Prints the plan. */
+enum status verb_explain(const struct run_options *options) MUST_CHECK;
+/** Shipped cases, fluid paths, laws, references, stages, parameters. */
+enum status verb_list(const struct run_options *options) MUST_CHECK;
+/** The JSON Schema of a scene. */
+enum status verb_schema(const struct run_options *options) MUST_CHECK;
+/** Writes a commented starter scene. */
+enum status verb_new(const struct run_options *options) MUST_CHECK;
+
+#endif
