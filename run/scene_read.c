@@ -7,6 +7,7 @@
 #include "run/scene_find.h"
 #include "run/scene_tables.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,13 +56,13 @@ static void name_variant(const struct scene_place *place, bool quick, char *vari
   if (n == 0) snprintf(variant, size, "base");
 }
 
+/** expected.json beside the scene. */
 static enum status find_expected(struct loaded_scene *loaded)
 {
   char   file[LONGEST_PATH + 16];
   cJSON *all = NULL;
-  char  *slash;
   snprintf(file, sizeof file, "%s", loaded->file);
-  slash = strrchr(file, '/');
+  char *slash = strrchr(file, '/');
   snprintf(slash ? slash + 1 : file, 16, "expected.json");
   if (!files_exists(file)) return OK;
   TRY(json_load(file, &all));
@@ -69,6 +70,28 @@ static enum status find_expected(struct loaded_scene *loaded)
   if (path) loaded->expected = cJSON_Duplicate(path, true);
   cJSON_Delete(all);
   if (path && !loaded->expected) return FAIL(ERR_ENVIRONMENT, "%s: no memory for a copy", file);
+  return OK;
+}
+
+static void take_text(const cJSON *object, const char *name, char *text, size_t size)
+{
+  const cJSON *value = json_member(object, name);
+  if (cJSON_IsString(value)) snprintf(text, size, "%s", value->valuestring);
+}
+
+/** A scene.used.json goes under the name of the scene it was made from; any other scene notes its own. */
+static enum status settle_origin(struct loaded_scene *loaded)
+{
+  cJSON *origin = json_member(loaded->json, "origin");
+  char   full[PATH_MAX];
+  if (!origin->child) {
+    TRY(json_add(origin, "scene", cJSON_CreateString(loaded->scene.name)));
+    TRY(json_add(origin, "file", cJSON_CreateString(realpath(loaded->file, full) ? full : loaded->file)));
+    return json_add(origin, "variant", cJSON_CreateString(loaded->variant));
+  }
+  take_text(origin, "scene", loaded->scene.name, sizeof loaded->scene.name);
+  take_text(origin, "file", loaded->file, sizeof loaded->file);
+  take_text(origin, "variant", loaded->variant, sizeof loaded->variant);
   return OK;
 }
 
@@ -86,6 +109,7 @@ static enum status load(const struct run_options *options, struct loaded_scene *
   TRY(json_load(loaded->file, &loaded->json));
   TRY(overrides_apply(loaded->file, &scene_section, &overrides, loaded->json, loaded->path));
   TRY(read_scene(&reader, loaded));
+  TRY(settle_origin(loaded));
   return find_expected(loaded);
 }
 

@@ -11,7 +11,7 @@ struct cJSON;
 struct loaded_scene {
   struct scene  scene;              /* scene.name: "terzaghi_column" or "terzaghi_column+ramp1ms" */
   struct cJSON *json;               /* overrides applied, every default filled in; no variants, quick, paths */
-  char          file[LONGEST_PATH]; /* the scene file */
+  char          file[LONGEST_PATH]; /* the scene file; of a scene.used.json the one it was made from */
   char          path[NAME_LENGTH];  /* fluid path, "solid" for a scene without fluid */
   char          variant[256];       /* key of expected.json: "base", "quick", "ramp1ms", "ramp1ms+quick" */
   struct cJSON *expected;           /* of this variant and path; NULL: nothing expected */

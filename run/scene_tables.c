@@ -329,6 +329,8 @@ static const struct entry scene_entries[] = {
     SECTION("output", output_section, AT(scene, output), "{}", "what is written, and when"),
     MAP("references", reference_section, references, "exact solutions by name"),
     MAP("metrics", metric_section, metrics, "numbers compared with references, by name"),
+    VALUE("origin", origin, scene, title, "{}", "-",
+          "of a scene.used.json: the scene, file and variant it was made from"),
     VALUE("variants", override_sets, scene, title, "{}", "-", "overrides by name, for SCENE+name: \"key.path\": value"),
     VALUE("quick", overrides, scene, title, "{}", "-", "overrides of --quick"),
     VALUE("paths", path_overrides, scene, title, "{}", "-", "overrides of a fluid path"),

@@ -30,6 +30,18 @@ static enum status read_notes(struct reader *reader, const cJSON *value, void *a
 
 const struct value_kind value_notes = {"text", read_notes, NULL, "{\"type\": [\"string\", \"array\"]}"};
 
+static enum status read_origin(struct reader *reader, const cJSON *value, void *at)
+{
+  (void)at;
+  if (!cJSON_IsObject(value)) return reader_fail(reader, "expected an object, found %s; remove it", json_type(value));
+  for (const cJSON *member = value->child; member; member = member->next)
+    if (!cJSON_IsString(member)) return reader_fail(reader, "it holds %s; remove it", json_type(member));
+  return OK;
+}
+
+const struct value_kind value_origin = {"object", read_origin, NULL,
+                                        "{\"type\": \"object\", \"additionalProperties\": {\"type\": \"string\"}}"};
+
 /* ---- sides ---- */
 
 static enum status read_side_word(struct reader *reader, const char *word, struct side_condition *side)

@@ -2,6 +2,7 @@
 #include "run/verbs.h"
 
 #include "run/arguments.h"
+#include "run/loop.h"
 #include "run/schema.h"
 
 enum status verb_schema(const struct run_options *options)
@@ -11,6 +12,13 @@ enum status verb_schema(const struct run_options *options)
 }
 
 const struct verb verbs[] = {
+    {"run", "SCENE", "--fluid --set --out --threads --until --quick --time --quiet --force", "runs a scene",
+     "Overrides apply in the order: scene, paths.<path>, variants, quick, --set. The output folder then holds "
+     "summary.json,\n"
+     "gauges.csv, fields.*.hdf, checkpoint.h5, scene.used.json and plan.txt.\n",
+     run_scene},
+    {"resume", "DIR", "--threads --until --time --quiet", "goes on from the last checkpoint of a run",
+     "The result is bitwise that of the uninterrupted run.\n", run_resume},
     {"check", "SCENE", "--fluid --set --quick", "validates a scene and prints what would run",
      "Every variant is validated too. Per fluid path: points, memory, time step, steps. Writes nothing.\n", verb_check},
     {"explain", "SCENE", "--fluid --set --quick", "prints the plan: stages in order, and those left out",
