@@ -251,13 +251,17 @@ static enum status read_override_sets(struct reader *reader, const cJSON *value,
   return OK;
 }
 
+/** Paths that scenes may already speak of though this program need not have them. */
+static bool is_foreseen(const char *path) { return strcmp(path, "twopoint") == 0 || strcmp(path, "fem") == 0; }
+
 static enum status read_path_overrides(struct reader *reader, const cJSON *value, void *at)
 {
   TRY(read_override_sets(reader, value, at));
   for (const cJSON *set = value->child; set; set = set->next) {
     const struct module *path = NULL;
     const cJSON          name = {.type = cJSON_String, .valuestring = set->string};
-    if (!json_is_comment(set)) TRY(read_fluid_path(reader, &name, &path));
+    if (json_is_comment(set) || is_foreseen(set->string)) continue;
+    TRY(read_fluid_path(reader, &name, &path));
   }
   return OK;
 }

@@ -40,7 +40,7 @@ static enum status print_steps(const struct scene *scene, const struct plan *pla
   const char *by = "";
   enum status status = sim_create(scene, plan, &sim);
   if (status == OK) {
-    double dt = scene->numerics.dt_factor * sim_dt_limit(sim, plan, &by);
+    double dt = sim_dt_limit(sim, plan, &by);
     printf(", dt %.3g s (%s), about %.0f steps\n", dt, by, ceil(scene->time_end / dt));
   }
   sim_destroy(&sim);
