@@ -20,12 +20,13 @@ struct constitutive_model {
   double (*wave_speed)(const void *prm, int n, const double *rb, const double *stress, const double *history);
   /** J/m3 per present volume, elastic, of n points. */
   void (*energy)(const void *prm, int n, const double *F, const double *stress, double *energy);
-  /** Pa: constrained (oedometer) modulus at the start, and the ratio of lateral to vertical effective stress at rest. */
+  /** Pa: constrained (oedometer) modulus at the start, and the ratio of lateral to vertical effective stress at rest.
+   */
   double (*oedometer_modulus)(const void *prm);
   double (*lateral_ratio)(const void *prm);
 };
 
 extern const struct constitutive_model *const constitutive_models[];
-const struct constitutive_model *constitutive_find(const char *name);
+const struct constitutive_model              *constitutive_find(const char *name);
 
 #endif

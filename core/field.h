@@ -7,7 +7,8 @@
 
 enum where { AT_NODE, AT_CELL, AT_FACE, AT_SOLID, AT_WATER, AT_MARKER };
 
-/* STATE is carried from step to step and checkpointed; SCRATCH is made anew in every step and poisoned in debug runs. */
+/* STATE is carried from step to step and checkpointed; SCRATCH is made anew in every step and poisoned in debug runs.
+ */
 enum field_kind { STATE, SCRATCH };
 
 /* components: a number, or one that depends on the dimension */

@@ -11,8 +11,8 @@ struct function {
   struct expression *expression; /* owned */
 };
 
-/** Parses: + - * / ^ ( ), unary -, x y z t pi, min max abs sqrt exp log sin cos tan tanh floor step(a) = a >= 0, numbers.
- *  ERR_INPUT names the column and what was expected. */
+/** Parses: + - * / ^ ( ), unary -, x y z t pi, min max abs sqrt exp log sin cos tan tanh floor step(a) = a >= 0,
+ * numbers. ERR_INPUT names the column and what was expected. */
 enum status function_parse(const char *text, struct function *f) MUST_CHECK;
 void        function_destroy(struct function *f);
 /** Value at x [3] m and t s. */

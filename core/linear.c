@@ -4,9 +4,9 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 
+#include <cholmod.h>
 #include <HYPRE.h>
 #include <HYPRE_struct_ls.h>
-#include <cholmod.h>
 #include <math.h>
 #include <mpi.h>
 #include <string.h>
@@ -15,21 +15,21 @@
 enum { DIRECT_CELLS = 1000, MAX_ITERATIONS = 200 };
 
 struct linear {
-  struct grid        grid;
-  enum linear_method method;
-  double            *residual;
-  double            *values; /* hypre: [cells][1 + dim] */
-  double            *flat;   /* hypre: [cells] */
-  bool               hypre_ready, direct_ready;
+  struct grid         grid;
+  enum linear_method  method;
+  double             *residual;
+  double             *values; /* hypre: [cells][1 + dim] */
+  double             *flat;   /* hypre: [cells] */
+  bool                hypre_ready, direct_ready;
   HYPRE_StructGrid    hgrid;
   HYPRE_StructStencil stencil;
   HYPRE_StructMatrix  A;
   HYPRE_StructVector  b, x;
   HYPRE_StructSolver  pcg, pfmg;
-  cholmod_common   common;
-  cholmod_sparse  *matrix;
-  cholmod_factor  *factor;
-  cholmod_dense   *rhs;
+  cholmod_common      common;
+  cholmod_sparse     *matrix;
+  cholmod_factor     *factor;
+  cholmod_dense      *rhs;
 };
 
 static long cell_count(const struct grid *g) { return (long)g->n[0] * g->n[1] * g->n[2]; }
@@ -92,9 +92,12 @@ static enum status direct_create(struct linear *l)
   cholmod_start(&l->common);
   l->common.print = 0;
   l->common.supernodal = CHOLMOD_AUTO;
-  l->matrix = cholmod_allocate_sparse((size_t)n, (size_t)n, (size_t)(n * (1 + g->dim)), 1, 1, -1, CHOLMOD_REAL, &l->common);
+  l->matrix =
+      cholmod_allocate_sparse((size_t)n, (size_t)n, (size_t)(n * (1 + g->dim)), 1, 1, -1, CHOLMOD_REAL, &l->common);
   l->rhs = cholmod_allocate_dense((size_t)n, 1, (size_t)n, CHOLMOD_REAL, &l->common);
-  if (!l->matrix || !l->rhs) return FAIL(ERR_ENVIRONMENT, "linear: no memory for the direct solver on %ld cells; set numerics.pressure_solver to hypre", n);
+  if (!l->matrix || !l->rhs)
+    return FAIL(ERR_ENVIRONMENT,
+                "linear: no memory for the direct solver on %ld cells; set numerics.pressure_solver to hypre", n);
   int *column = l->matrix->p, *row = l->matrix->i;
   for (long c = 0; c < n; c++) {
     int place[3] = {(int)(c % g->n[0]), (int)(c / g->n[0] % g->n[1]), (int)(c / g->n[0] / g->n[1])};
@@ -116,7 +119,9 @@ static enum status direct_create(struct linear *l)
   ((double *)l->matrix->x)[0] = 0;
   cholmod_sort(l->matrix, &l->common);
   l->factor = cholmod_analyze(l->matrix, &l->common);
-  if (!l->factor) return FAIL(ERR_ENVIRONMENT, "linear: CHOLMOD could not analyse %ld cells; set numerics.pressure_solver to hypre", n);
+  if (!l->factor)
+    return FAIL(ERR_ENVIRONMENT, "linear: CHOLMOD could not analyse %ld cells; set numerics.pressure_solver to hypre",
+                n);
   l->direct_ready = true;
   return OK;
 }
@@ -183,10 +188,14 @@ static long lower_neighbour(const struct grid *g, long c, int d)
 }
 
 /* whether cell c has a neighbour across its upper face */
-static bool has_upper(const struct grid *g, const int place[3], int d) { return g->periodic[d] || place[d] < g->n[d] - 1; }
+static bool has_upper(const struct grid *g, const int place[3], int d)
+{
+  return g->periodic[d] || place[d] < g->n[d] - 1;
+}
 
 /** Largest |b - A x| over owned cells; fills l->residual. */
-static double residual_max(struct linear *l, const double *diagonal, const double *coupling, const double *b, const double *x)
+static double residual_max(struct linear *l, const double *diagonal, const double *coupling, const double *b,
+                           const double *x)
 {
   const struct grid *g = &l->grid;
   struct box         cells = grid_cells(g);
@@ -209,7 +218,8 @@ static void hypre_fill(struct linear *l, const double *diagonal, const double *c
 {
   const struct grid *g = &l->grid;
   struct box         cells = grid_cells(g);
-  int                width = 1 + g->dim, entries[4] = {0, 1, 2, 3}, lower[3] = {0, 0, 0}, upper[3] = {g->n[0] - 1, g->n[1] - 1, g->n[2] - 1};
+  int                width = 1 + g->dim, entries[4] = {0, 1, 2, 3}, lower[3] = {0, 0, 0},
+      upper[3] = {g->n[0] - 1, g->n[1] - 1, g->n[2] - 1};
   PARALLEL_FOR
   for (long r = 0; r < box_rows(&cells); r++) {
     long    c0 = box_row(g, &cells, r);
@@ -276,8 +286,8 @@ static enum status direct_run(struct linear *l, const double *diagonal, const do
     for (int e = column[c]; e < column[c + 1]; e++) {
       if (row[e] == c) value[e] = diagonal[at];
       for (int d = 0; d < g->dim && row[e] != c; d++) {
-        long up = upper_neighbour(g, at, d), low = lower_neighbour(g, at, d);
-        int  q[3];
+        long   up = upper_neighbour(g, at, d), low = lower_neighbour(g, at, d);
+        int    q[3];
         double k = 0;
         grid_place(g, up, q);
         if (has_upper(g, place, d) && flat_of(g, q) == row[e]) k += coupling[d * g->size + up];
@@ -303,11 +313,16 @@ static void project(const struct grid *g, const double *active, double *v)
   struct box cells = grid_cells(g);
   double     sum = 0;
   long       n = 0;
-  FOR_BOX_SERIAL(g, cells, c) if (active[c] != 0) { sum += v[c]; n++; }
+  FOR_BOX_SERIAL(g, cells, c) if (active[c] != 0)
+  {
+    sum += v[c];
+    n++;
+  }
   FOR_BOX_SERIAL(g, cells, c) if (active[c] != 0) v[c] -= sum / (double)n;
 }
 
-/* the diagonal of one active cell is doubled: that fixes the constant and leaves a compatible solution's gradient alone */
+/* the diagonal of one active cell is doubled: that fixes the constant and leaves a compatible solution's gradient alone
+ */
 static double *pinned(const struct grid *g, const double *active, const double *diagonal)
 {
   struct box cells = grid_cells(g);
@@ -315,8 +330,8 @@ static double *pinned(const struct grid *g, const double *active, const double *
   return NULL;
 }
 
-enum status linear_solve(struct linear *l, const double *diagonal, const double *coupling, bool singular, const double *active,
-                         double tolerance, double *b, double *x, struct linear_report *report)
+enum status linear_solve(struct linear *l, const double *diagonal, const double *coupling, bool singular,
+                         const double *active, double tolerance, double *b, double *x, struct linear_report *report)
 {
   const struct grid *g = &l->grid;
   struct box         cells = grid_cells(g);
@@ -326,7 +341,8 @@ enum status linear_solve(struct linear *l, const double *diagonal, const double 
   FOR_BOX(g, cells, c) x[c] = 0;
   report->residual = residual_max(l, diagonal, coupling, b, x);
   if (report->residual <= tolerance) return OK;
-  if (!isfinite(report->residual)) return FAIL(ERR_DIVERGED, "pressure: the volume equation's right-hand side is not finite");
+  if (!isfinite(report->residual))
+    return FAIL(ERR_DIVERGED, "pressure: the volume equation's right-hand side is not finite");
   if (pin) *pin *= 2;
   if (l->method == LINEAR_HYPRE) {
     double aim = tolerance;

@@ -1,4 +1,5 @@
-/* Symmetric positive (semi-)definite 5/7-point systems on the cells of a grid. The only header over hypre and SuiteSparse. */
+/* Symmetric positive (semi-)definite 5/7-point systems on the cells of a grid. The only header over hypre and
+ * SuiteSparse. */
 #ifndef CORE_LINEAR_H
 #define CORE_LINEAR_H
 
@@ -22,10 +23,11 @@ enum status linear_create(const struct grid *g, enum linear_method method, struc
 void        linear_destroy(struct linear **linear);
 
 /** Solves A x = b from the guess x = 0 until max |b - A x| <= tolerance.
- *  diagonal [size]; coupling [dim][size]: entry between a cell and its lower neighbour along an axis, at their face, <= 0;
- *  b, x [size]. singular: constants are in the null space; b is projected and x gets mean zero over cells with
- *  active [size] != 0. ERR_SOLVER: tolerance not reached. */
-enum status linear_solve(struct linear *linear, const double *diagonal, const double *coupling, bool singular, const double *active,
-                         double tolerance, double *b, double *x, struct linear_report *report) MUST_CHECK;
+ *  diagonal [size]; coupling [dim][size]: entry between a cell and its lower neighbour along an axis, at their face, <=
+ * 0; b, x [size]. singular: constants are in the null space; b is projected and x gets mean zero over cells with active
+ * [size] != 0. ERR_SOLVER: tolerance not reached. */
+enum status linear_solve(struct linear *linear, const double *diagonal, const double *coupling, bool singular,
+                         const double *active, double tolerance, double *b, double *x,
+                         struct linear_report *report) MUST_CHECK;
 
 #endif

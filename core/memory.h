@@ -1,4 +1,5 @@
-/* The only allocator. Everything is allocated while a plan is built; a step allocates nothing (memory_calls() proves it). */
+/* The only allocator. Everything is allocated while a plan is built; a step allocates nothing (memory_calls() proves
+ * it). */
 #ifndef CORE_MEMORY_H
 #define CORE_MEMORY_H
 

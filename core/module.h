@@ -9,13 +9,13 @@
 struct ledger;
 
 struct module {
-  const char *name;                     /* the folder; for a fluid path also its word in fluid.path */
+  const char *name; /* the folder; for a fluid path also its word in fluid.path */
   bool        is_fluid_path;
-  enum where  meets_at;                 /* a fluid path: where it wants the solid, AT_NODE or AT_FACE */
+  enum where  meets_at; /* a fluid path: where it wants the solid, AT_NODE or AT_FACE */
   bool (*needed)(const struct scene *);
-  const struct param *params;           /* numerics.<name>.*; ends with PARAM_END; may be NULL */
+  const struct param *params; /* numerics.<name>.*; ends with PARAM_END; may be NULL */
   size_t              params_size;
-  const struct field *fields;           /* made from fields.def */
+  const struct field *fields; /* made from fields.def */
   int                 n_fields;
   const struct stage *stages;
   int                 n_stages;

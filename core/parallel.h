@@ -11,8 +11,8 @@
 
 /* for (every index c of the box), rows in parallel:  FOR_BOX(g, b, c) { ... }  */
 #define FOR_BOX(g, b, c)                                                                                               \
-  PARALLEL_FOR for (long row_ = 0; row_ < box_rows(&(b)); row_++) for (                                                \
-      long c = box_row(g, &(b), row_), end_ = c + box_length(&(b)); c < end_; c++)
+  PARALLEL_FOR for (long row_ = 0; row_ < box_rows(&(b));                                                              \
+                    row_++) for (long c = box_row(g, &(b), row_), end_ = c + box_length(&(b)); c < end_; c++)
 /* the same on one thread */
 #define FOR_BOX_SERIAL(g, b, c)                                                                                        \
   for (long row_ = 0; row_ < box_rows(&(b)); row_++)                                                                   \

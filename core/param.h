@@ -9,14 +9,14 @@
 #include <stddef.h>
 
 enum param_type {
-  PARAM_NUMBER,    /* double */
-  PARAM_INTEGER,   /* int */
-  PARAM_FLAG,      /* bool */
-  PARAM_CHOICE,    /* int: index into words */
-  PARAM_TEXT,      /* char[NAME_LENGTH] */
-  PARAM_VECTOR,    /* double[3]; the scene gives dim numbers; null means unbounded where INFINITY is in range */
-  PARAM_FUNCTION,  /* struct function: a number or an expression of x, y, z, t */
-  PARAM_FUNCTION3  /* struct function[3] */
+  PARAM_NUMBER,   /* double */
+  PARAM_INTEGER,  /* int */
+  PARAM_FLAG,     /* bool */
+  PARAM_CHOICE,   /* int: index into words */
+  PARAM_TEXT,     /* char[NAME_LENGTH] */
+  PARAM_VECTOR,   /* double[3]; the scene gives dim numbers; null means unbounded where INFINITY is in range */
+  PARAM_FUNCTION, /* struct function: a number or an expression of x, y, z, t */
+  PARAM_FUNCTION3 /* struct function[3] */
 };
 
 enum { NAME_LENGTH = 64 };
@@ -32,6 +32,9 @@ struct param {
   const char     *meaning;  /* one sentence */
 };
 
-#define PARAM_END {.name = NULL}
+#define PARAM_END                                                                                                      \
+  {                                                                                                                    \
+    .name = NULL                                                                                                       \
+  }
 
 #endif

@@ -81,7 +81,8 @@ bool points_need_sort(const struct grid *g, const struct points *p, const double
     for (long q = p->start[block * p->n_groups]; q < p->start[(block + 1) * p->n_groups]; q++)
       for (int d = 0; d < dim; d++) {
         double s = (x[q * dim + d] - g->min[d]) * inverse_h - corner[d];
-        out |= !(s >= -BLOCK_MARGIN && s < p->block_edge + BLOCK_MARGIN && s + corner[d] < g->n[d] && s + corner[d] >= 0);
+        out |=
+            !(s >= -BLOCK_MARGIN && s < p->block_edge + BLOCK_MARGIN && s + corner[d] < g->n[d] && s + corner[d] >= 0);
       }
     if (out) {
 #pragma omp atomic write
@@ -128,7 +129,8 @@ enum status points_sort(const struct grid *g, struct points *p, const double *x)
       p->count[p->key[q] + 1]++;
   }
   if (lost >= 0)
-    return FAIL(ERR_DIVERGED, "points: a point left the grid at (%g, %g, %g); extend grid.min/grid.max or close the side",
+    return FAIL(ERR_DIVERGED,
+                "points: a point left the grid at (%g, %g, %g); extend grid.min/grid.max or close the side",
                 x[lost * g->dim], x[lost * g->dim + 1], g->dim == 3 ? x[lost * g->dim + 2] : 0.0);
   for (long b = 0; b < bins; b++) p->count[b + 1] += p->count[b];
   for (long r = 0; r <= p->n_runs; r++) p->start[r] = p->count[r * per_block];

@@ -19,13 +19,14 @@ struct points {
   unsigned char *group; /* [n] */
   int            block_edge, blocks[3];
   long           n_blocks, n_runs; /* run = (block, group) */
-  long          *start;            /* [n_runs + 1]: run r = block*n_groups + group holds points [start[r], start[r+1]) */
+  long          *start; /* [n_runs + 1]: run r = block*n_groups + group holds points [start[r], start[r+1]) */
   /* scratch of the sort */
-  long  *order, *key, *count;
+  long   *order, *key, *count;
   double *shelf;
 };
 
-enum status points_create(const struct grid *g, long n, int n_groups, int max_components, struct points **points) MUST_CHECK;
+enum status points_create(const struct grid *g, long n, int n_groups, int max_components,
+                          struct points **points) MUST_CHECK;
 void        points_destroy(struct points **points);
 /** Lower corner cell of a block. */
 void points_block_corner(const struct points *p, long block, int corner[3]);

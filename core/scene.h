@@ -21,11 +21,11 @@ enum side { X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN, Z_MAX };
 struct material {
   char                             name[NAME_LENGTH];
   const struct constitutive_model *model;
-  void                            *model_params; /* read by the law's own table: young, poisson, ... */
-  double density;        /* kg/m3, of the grains */
-  double porosity;       /* -, at the start */
-  double permeability;   /* m/s, hydraulic conductivity; 0: not given */
-  double grain_diameter; /* m; 0: not given */
+  void                            *model_params;   /* read by the law's own table: young, poisson, ... */
+  double                           density;        /* kg/m3, of the grains */
+  double                           porosity;       /* -, at the start */
+  double                           permeability;   /* m/s, hydraulic conductivity; 0: not given */
+  double                           grain_diameter; /* m; 0: not given */
 };
 
 struct solid {
@@ -36,18 +36,18 @@ struct solid {
 };
 
 struct fluid {
-  bool                 present;
-  const struct module *path;
-  double               density;      /* kg/m3 at the reference pressure */
-  double               bulk_modulus; /* Pa; INFINITY: incompressible */
-  double               viscosity;    /* Pa s */
-  const struct eos    *eos;
-  void                *eos_params;
+  bool                   present;
+  const struct module   *path;
+  double                 density;      /* kg/m3 at the reference pressure */
+  double                 bulk_modulus; /* Pa; INFINITY: incompressible */
+  double                 viscosity;    /* Pa s */
+  const struct eos      *eos;
+  void                  *eos_params;
   const struct drag_law *drag;
-  void                *drag_params;
-  struct shape         region;
-  struct function      velocity[3]; /* m/s at the start */
-  struct function      pressure;    /* Pa (gauge) at the start, where the start is not at rest */
+  void                  *drag_params;
+  struct shape           region;
+  struct function        velocity[3]; /* m/s at the start */
+  struct function        pressure;    /* Pa (gauge) at the start, where the start is not at rest */
 };
 
 /* what a side does to the solid or to the fluid */
@@ -63,9 +63,9 @@ struct side_condition {
 /* A traction on a surface that rides on the solid: a flat patch (a box with one axis of zero width) or a 2D arc. */
 struct load {
   char            name[NAME_LENGTH];
-  struct shape    patch;                     /* SHAPE_BOX; or SHAPE_BALL: the arc of that circle inside the grid */
-  struct function traction[3];               /* Pa = N/m2, force on the solid per area */
-  struct function pressure;                  /* Pa, pushes against the outward normal of an arc or patch side */
+  struct shape    patch;       /* SHAPE_BOX; or SHAPE_BALL: the arc of that circle inside the grid */
+  struct function traction[3]; /* Pa = N/m2, force on the solid per area */
+  struct function pressure;    /* Pa, pushes against the outward normal of an arc or patch side */
 };
 
 /* A massless point that moves with the solid. */
@@ -78,13 +78,13 @@ enum gauge_kind { GAUGE_POINT, GAUGE_LINE, GAUGE_INTEGRAL, GAUGE_MEAN, GAUGE_TRA
 #define GAUGE_WORDS "point|line|integral|mean|tracer|load"
 
 struct gauge {
-  char         name[NAME_LENGTH];
-  int          kind;
-  char         of[NAME_LENGTH]; /* output name of a field, with _x _yy ... for a component; or a ledger entry, or energy */
-  char         on[NAME_LENGTH]; /* GAUGE_TRACER, GAUGE_LOAD: its name */
-  double       x[3], to[3];     /* m: the point, the ends of the line, or where a tracer's distance is taken from */
-  int          n;               /* samples of a line */
-  struct shape region;          /* of integrals and means */
+  char   name[NAME_LENGTH];
+  int    kind;
+  char   of[NAME_LENGTH]; /* output name of a field, with _x _yy ... for a component; or a ledger entry, or energy */
+  char   on[NAME_LENGTH]; /* GAUGE_TRACER, GAUGE_LOAD: its name */
+  double x[3], to[3];     /* m: the point, the ends of the line, or where a tracer's distance is taken from */
+  int    n;               /* samples of a line */
+  struct shape region;    /* of integrals and means */
 };
 
 struct reference_use {
@@ -95,25 +95,29 @@ struct reference_use {
 
 /* One number of a run that is compared with a reference. */
 enum metric_measure {
-  MEASURE_RMS, MEASURE_MAX, MEASURE_VALUE, MEASURE_MEAN,
-  MEASURE_FREQUENCY, MEASURE_DECAY, /* Hz, 1/s: of the damped oscillation of a gauge */
-  MEASURE_DRIFT,                    /* largest departure of a gauge from its first value in the span, over that value */
-  MEASURE_ROUGHNESS                 /* standard deviation of h2 times the Laplacian of a cell field */
+  MEASURE_RMS,
+  MEASURE_MAX,
+  MEASURE_VALUE,
+  MEASURE_MEAN,
+  MEASURE_FREQUENCY,
+  MEASURE_DECAY,    /* Hz, 1/s: of the damped oscillation of a gauge */
+  MEASURE_DRIFT,    /* largest departure of a gauge from its first value in the span, over that value */
+  MEASURE_ROUGHNESS /* standard deviation of h2 times the Laplacian of a cell field */
 };
 #define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|roughness"
 
 struct metric {
-  char         name[NAME_LENGTH];
-  int          measure;
-  char         field[NAME_LENGTH];    /* of cells or points at one time ... */
-  char         gauge[NAME_LENGTH];    /* ... or of a gauge over a span of time */
-  char         reference[NAME_LENGTH];/* "name.quantity"; empty: the value itself */
-  struct function expected;           /* used when reference is empty */
-  struct shape region;
-  double       at, from, to;          /* s, or in units of the reference's time scale; INFINITY: the end */
-  bool         scaled_time;
-  double       scale;                 /* result is divided by it; 0: by the reference's scale of that quantity */
-  double       offset;                /* added to the gauge before comparing */
+  char            name[NAME_LENGTH];
+  int             measure;
+  char            field[NAME_LENGTH];     /* of cells or points at one time ... */
+  char            gauge[NAME_LENGTH];     /* ... or of a gauge over a span of time */
+  char            reference[NAME_LENGTH]; /* "name.quantity"; empty: the value itself */
+  struct function expected;               /* used when reference is empty */
+  struct shape    region;
+  double          at, from, to; /* s, or in units of the reference's time scale; INFINITY: the end */
+  bool            scaled_time;
+  double          scale;  /* result is divided by it; 0: by the reference's scale of that quantity */
+  double          offset; /* added to the gauge before comparing */
 };
 
 enum start_kind { START_AT_REST, START_ZERO };
@@ -129,7 +133,7 @@ struct numerics {
   int    basis, transfer, stress_timing, wall_basis, pressure_solver;
   double aflip_beta, points_per_cell; /* points per cell: a square or cube number, or nx x ny x nz below */
   int    points_per_axis[3];          /* their number along each axis */
-  double dt_factor, dt_max; /* s; INFINITY: none */
+  double dt_factor, dt_max;           /* s; INFINITY: none */
   double theta;
   double pressure_tolerance; /* of the volume flux per step, relative to the pore volume */
 };
@@ -142,16 +146,16 @@ struct output {
 };
 
 struct scene {
-  char   name[NAME_LENGTH], title[256];
-  int    dim;
-  double min[3], max[3], h;
-  int    cells[3];
-  bool   one_cell[3]; /* the scene gave null: this axis is one cell wide whatever h is */
-  double time_end;
-  struct function gravity[3];
-  int    start; /* enum start_kind */
-  int    seed;
-  int    n_materials, n_solids, n_loads, n_tracers, n_gauges, n_references, n_metrics;
+  char                  name[NAME_LENGTH], title[256];
+  int                   dim;
+  double                min[3], max[3], h;
+  int                   cells[3];
+  bool                  one_cell[3]; /* the scene gave null: this axis is one cell wide whatever h is */
+  double                time_end;
+  struct function       gravity[3];
+  int                   start; /* enum start_kind */
+  int                   seed;
+  int                   n_materials, n_solids, n_loads, n_tracers, n_gauges, n_references, n_metrics;
   struct material      *materials;
   struct solid         *solids;
   struct load          *loads;

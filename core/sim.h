@@ -14,19 +14,19 @@ struct solver_report {
 };
 
 struct sim {
-  const struct scene *scene;
-  struct grid         grid;
-  double              t, dt; /* s: start of the step and its length */
-  double              dt_limit; /* s: the mechanical limit at factor one, that blends per step refer to */
-  long                step;
-  struct points      *points[N_SETS]; /* NULL: no such set */
-  int                 n_markers;
-  int                 n_modules;
+  const struct scene         *scene;
+  struct grid                 grid;
+  double                      t, dt;    /* s: start of the step and its length */
+  double                      dt_limit; /* s: the mechanical limit at factor one, that blends per step refer to */
+  long                        step;
+  struct points              *points[N_SETS]; /* NULL: no such set */
+  int                         n_markers;
+  int                         n_modules;
   const struct module *const *modules; /* planned ones */
-  void              **states;
-  struct ledger       ledger_start, ledger;
-  struct solver_report solver;
-  double              defect_rms_max, defect_max; /* over all steps */
+  void                      **states;
+  struct ledger               ledger_start, ledger;
+  struct solver_report        solver;
+  double                      defect_rms_max, defect_max; /* over all steps */
 };
 
 /** State of a module; NULL if it is not planned. */

@@ -17,10 +17,10 @@ enum slot {
 };
 
 struct stage {
-  const char *name;           /* "folder.verb_object" */
-  enum slot   slot;           /* its line in core/step_order.def */
-  const char *reads, *writes; /* field names, checked when the plan is built */
-  const char *source, *when;  /* section of docs/theory.md; needed() in words, for explain */
+  const char *name;                     /* "folder.verb_object" */
+  enum slot   slot;                     /* its line in core/step_order.def */
+  const char *reads, *writes;           /* field names, checked when the plan is built */
+  const char *source, *when;            /* section of docs/theory.md; needed() in words, for explain */
   bool (*needed)(const struct scene *); /* NULL: always. Looks at the scene, never at the state */
   enum status (*run)(struct sim *, double dt);
   double (*dt_limit)(const struct sim *); /* s; NULL: this stage sets no limit */

@@ -1,4 +1,5 @@
-/* Equations of state: pressure, density and their derivatives. Arrays in, arrays out. docs/theory.md, "Equations of state". */
+/* Equations of state: pressure, density and their derivatives. Arrays in, arrays out. docs/theory.md, "Equations of
+ * state". */
 #ifndef EOS_EOS_H
 #define EOS_EOS_H
 
@@ -9,7 +10,8 @@ struct eos {
   const struct param *params;
   size_t              param_size;
   /* T NULL: the reference temperature everywhere (runs without energy). */
-  /** P [n] Pa, compression positive, gauge where the law's reference pressure is zero; from rho [n] kg/m3 and T [n] K. */
+  /** P [n] Pa, compression positive, gauge where the law's reference pressure is zero; from rho [n] kg/m3 and T [n] K.
+   */
   void (*pressure)(const void *prm, int n, const double *rho, const double *T, double *P);
   /** rho [n] kg/m3 from P [n] Pa and T [n] K. */
   void (*density)(const void *prm, int n, const double *P, const double *T, double *rho);
@@ -25,6 +27,6 @@ struct eos {
 
 /** The registered laws of eos.def; NULL-terminated. */
 extern const struct eos *const eos_laws[];
-const struct eos *eos_find(const char *name);
+const struct eos              *eos_find(const char *name);
 
 #endif
