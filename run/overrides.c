@@ -53,13 +53,13 @@ static enum status fail_element(const struct reader *reader, const cJSON *map, c
   return reader_unknown(reader, "name", name, &names);
 }
 
-/** rest: what follows the name of a map. */
+/** rest: what follows the name of a map. Without the map nothing is known of its names, which may hold dots. */
 static enum status check_in_map(struct reader *reader, const struct section *section, const cJSON *map,
                                 const char *rest)
 {
   char   name[JSON_PATH];
   size_t length = json_name_length(map, rest);
-  if (rest[length] == '\0') return OK; /* a whole element, new or not */
+  if (!map || rest[length] == '\0') return OK; /* a whole element, new or not */
   snprintf(name, sizeof name, "%.*s", (int)length, rest);
   const cJSON *element = json_member(map, name);
   if (!element) return fail_element(reader, map, name);
@@ -104,7 +104,7 @@ enum status overrides_check(struct reader *reader, const struct section *section
                        json_type(set));
   for (const cJSON *member = set->child; member; member = member->next) {
     if (json_is_comment(member)) continue;
-    TRY(section_check_override(reader, section, reader->root, member->string));
+    TRY(section_check_override(reader, section, NULL, member->string));
     reader_leave(reader, mark);
   }
   return OK;

@@ -21,7 +21,8 @@ struct overrides {
  */
 enum status overrides_apply(const char *file, const struct section *section, const struct overrides *overrides,
                             cJSON *json, char path[NAME_LENGTH]) MUST_CHECK;
-/** Checks a set of overrides that need not be applied: "variants.<name>", "quick", "paths.<path>". */
+/** Checks the keys of a set that need not be applied: "variants.<name>", "quick", "paths.<path>". Names of materials,
+ *  loads, ... are looked for when it is applied. */
 enum status overrides_check(struct reader *reader, const struct section *section, const cJSON *set) MUST_CHECK;
 
 #endif
