@@ -2,8 +2,8 @@
 #include "run/summary.h"
 
 #include "run/files.h"
+#include "run/json.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
