@@ -56,23 +56,6 @@ static void name_variant(const struct scene_place *place, bool quick, char *vari
   if (n == 0) snprintf(variant, size, "base");
 }
 
-/** expected.json beside the scene. */
-static enum status find_expected(struct loaded_scene *loaded)
-{
-  char   file[LONGEST_PATH + 16];
-  cJSON *all = NULL;
-  snprintf(file, sizeof file, "%s", loaded->file);
-  char *slash = strrchr(file, '/');
-  snprintf(slash ? slash + 1 : file, 16, "expected.json");
-  if (!files_exists(file)) return OK;
-  TRY(json_load(file, &all));
-  const cJSON *path = json_member(json_member(all, loaded->variant), loaded->path);
-  if (path) loaded->expected = cJSON_Duplicate(path, true);
-  cJSON_Delete(all);
-  if (path && !loaded->expected) return FAIL(ERR_ENVIRONMENT, "%s: no memory for a copy", file);
-  return OK;
-}
-
 static void take_text(const cJSON *object, const char *name, char *text, size_t size)
 {
   const cJSON *value = json_member(object, name);
@@ -110,7 +93,7 @@ static enum status load(const struct run_options *options, struct loaded_scene *
   TRY(overrides_apply(loaded->file, &scene_section, &overrides, loaded->json, loaded->path));
   TRY(read_scene(&reader, loaded));
   TRY(settle_origin(loaded));
-  return find_expected(loaded);
+  return scene_find_expected(loaded);
 }
 
 enum status scene_load(const struct run_options *options, struct loaded_scene **loaded)
@@ -143,23 +126,6 @@ enum status scene_write_used(const struct loaded_scene *loaded, const char *file
   enum status status = files_replace(file, text, strlen(text));
   free(text);
   return status;
-}
-
-static void copy_text(const cJSON *object, const char *name, char *text, size_t size)
-{
-  const cJSON *value = json_member(object, name);
-  snprintf(text, size, "%s", cJSON_IsString(value) ? value->valuestring : "");
-}
-
-void scene_expected(const struct loaded_scene *loaded, const char *metric, struct expectation *expectation)
-{
-  const cJSON *entry = json_member(loaded->expected, metric);
-  const cJSON *value = json_member(entry, "value"), *limit = json_member(entry, "limit");
-  *expectation = (struct expectation){.has_value = cJSON_IsNumber(value), .has_limit = cJSON_IsNumber(limit)};
-  if (expectation->has_value) expectation->value = value->valuedouble;
-  if (expectation->has_limit) expectation->limit = limit->valuedouble;
-  copy_text(entry, "unit", expectation->unit, sizeof expectation->unit);
-  copy_text(entry, "reference", expectation->reference, sizeof expectation->reference);
 }
 
 enum status scene_out_directory(const struct loaded_scene *loaded, const struct run_options *options, char *directory,

@@ -31,6 +31,9 @@ struct expectation {
   char   unit[NAME_LENGTH], reference[256];
 };
 
+/** Finds what expected.json, beside the scene, says of this variant and path; the order of variants does not matter.
+ *  ERR_INPUT: it speaks of a metric that the scene does not have. Part of scene_load. */
+enum status scene_find_expected(struct loaded_scene *scene) MUST_CHECK;
 /** Metrics without an entry: has_value and has_limit are false. */
 void scene_expected(const struct loaded_scene *scene, const char *metric, struct expectation *expectation);
 
