@@ -251,6 +251,40 @@ START_TEST(expected_limits)
 }
 END_TEST
 
+/* limits hold for any order of the variants; what could never be judged is refused */
+START_TEST(expected_is_checked)
+{
+  static const struct {
+    const char *text, *said;
+  } row[] = {
+      {"{\"soft+stiff\": {\"ice\": {\"p_rms_0.1\": {\"limit\": 1}}}}", NULL},
+      {"{\"stiff+soft\": {\"ice\": {\"p_rms\": {\"limit\": 1}}}}",
+       "stiff+soft.ice: unknown metric \"p_rms\"; did you mean \"p_rms_0.1\"?"},
+      {"{\"stiff+soft\": {\"ice\": {\"p_rms_0.1\": {\"limt\": 1}}}}",
+       "stiff+soft.ice.p_rms_0.1: unknown key \"limt\"; did you mean \"limit\"?"},
+      {"{\"stiff+soft\": {\"ice\": {\"p_rms_0.1\": {\"limit\": \"1\"}}}}",
+       "stiff+soft.ice.p_rms_0.1.limit: expected a number"},
+      {"{\"stiff+soft\": ", "the file ends inside the JSON"},
+  };
+  char argument[96];
+  snprintf(argument, sizeof argument, "%s+stiff+soft", file);
+  write_text("column.json", base, strlen(base));
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    struct loaded_scene *l = NULL;
+    struct expectation   e;
+    write_text("expected.json", row[i].text, strlen(row[i].text));
+    enum status status = load(&(struct run_options){.argument = argument}, &l);
+    ck_assert_int_eq(status, row[i].said ? ERR_INPUT : OK);
+    if (row[i].said)
+      ck_assert_msg(strstr(status_message(), row[i].said) != NULL, "no \"%s\" in: %s", row[i].said, status_message());
+    if (!l) continue;
+    scene_expected(l, "p_rms_0.1", &e);
+    ck_assert(e.has_limit);
+    scene_unload(&l);
+  }
+}
+END_TEST
+
 START_TEST(folder_of_a_run)
 {
   char directory[LONGEST_PATH];
@@ -288,127 +322,9 @@ END_TEST
 static const struct {
   const char *old, *new, *path, *remedy;
 } bad[] = {
-    /* keys */
-    {"\"young\"", "\"yuong\"", "materials.sand: unknown key \"yuong\"",
-     "did you mean \"young\"? valid are: model, density"},
-    {"\"grid\"", "\"gird\"", "grid.min: is missing", "give the lower corner"},
-    {"\"time\": {", "\"tiem\": {}, \"time\": {", "unknown key \"tiem\"", "did you mean \"time\"?"},
-    {"\"end\": 2", "\"end\": 2, \"end\": 3", "time.end: the key stands twice", "remove one"},
-    {"\"end\": 2", "\"End\": 2", "time: unknown key \"End\"", "did you mean \"end\"?"},
-    {"\"end\": 2", "", "time.end: is missing", "give the time at which the run ends"},
-    {"\"material\": \"sand\", ", "", "solids.column.material: is missing", "give the name of its material"},
-    {"\"y_min\": \"no_slip\"", "\"z_min\": \"no_slip\"", "boundary.solid: unknown key \"z_min\"",
-     "valid are: x_min, x_max, y_min, y_max"},
-    /* types */
-    {"\"end\": 2", "\"end\": \"2 s\"", "time.end: expected a number", "found the text \"2 s\""},
-    {"\"end\": 2", "\"end\": null", "time.end: expected a number", "it is the time at which the run ends"},
-    {"{\"end\": 2}", "2", "time: expected an object", "it holds the span of time"},
-    {"{\"end\": 2}", "{\"end\": 2}, \"seed\": 1.5", "seed: 1.5 is not a whole number", "round it"},
-    {"[0, 0], \"max\"", "0, \"max\"", "grid.min: expected a list of two or three numbers", "write [0, 0]"},
-    {"[null, 1.2]", "[null, 1.2, 1]", "grid.max: 3 entries in a grid of 2 dimensions", "give 2"},
-    {"[0, -1e4]", "[0, true]", "loads.top.traction.1: expected a number or an expression", "write 9.81"},
-    {"\"zero\"", "\"at_rset\"", "start: unknown word \"at_rset\"",
-     "did you mean \"at_rest\"? valid are: at_rest, zero"},
-    {"\"test\"", "7", "title: expected a text", "put it in quotes"},
-    /* ranges */
-    {"\"poisson\": 0.3", "\"poisson\": 0.6", "materials.sand.poisson: 0.6 is outside [-0.99, 0.499]",
-     "choose the Poisson's ratio"},
-    {"\"porosity\": 0.3", "\"porosity\": 1", "materials.sand.porosity: 1 is outside [0, 0.99]",
-     "choose the pore volume"},
-    {"\"end\": 2", "\"end\": 0", "time.end: 0 is outside", "choose the time at which the run ends"},
-    {"\"end\": 2", "\"end\": 1e999", "time.end: the number is not finite", "write one that a double can hold"},
-    {"\"points_per_cell\": 4", "\"theta\": 0.4", "numerics.theta: 0.4 is outside [0.5, 1]",
-     "choose the weight of the new pressure"},
-    {"\"points_per_cell\": 4", "\"points_per_cell\": 6", "numerics.points_per_cell: 6 is not the square",
-     "choose 4, or give points per axis"},
-    {"\"points_per_cell\": 4", "\"points_per_cell\": [2, 0]", "numerics.points_per_cell: points along an axis",
-     "write [2, 2]"},
-    {"\"points_per_cell\": 4", "\"transfer\": \"aflop\"", "numerics.transfer: unknown word \"aflop\"",
-     "did you mean \"aflip\"?"},
-    {"-9.81*min(1, t)", "-9.81*mni(1, t)", "gravity.1: expression \"-9.81*mni(1, t)\", column 7",
-     "expected x, y, z, t, pi"},
-    /* grid */
-    {"\"h\": 0.1", "\"h\": 0.11", "grid.max.1: 1.2 makes 10.9091 cells", "the nearest is 1.21"},
-    {"\"h\": 0.1", "\"h\": -1", "grid.h: -1 is outside", "choose the width of a cell"},
-    {"[null, 1.2]", "[null, -1]", "grid.max.1: -1 does not lie above grid.min", "enlarge it"},
-    {"\"h\": 0.1", "\"h\": 1e-9", "grid.h: 1e-09 makes 1.2e+09 cells", "enlarge it"},
-    /* materials and fluid */
-    {"\"linear_elastic\"", "\"linear_elastc\"", "materials.sand.model: unknown model \"linear_elastc\"",
-     "did you mean \"linear_elastic\"?"},
-    {", \"permeability\": 1e-3}", "}",
-     "materials.sand: drag law darcy needs \"permeability\", and \"grain_diameter\" is missing too", "give it in m/s"},
-    {"\"path\": \"ice\", ", "", "fluid.path: the fluid has no path", "choose one with --fluid"},
-    {"\"path\": \"ice\"", "\"path\": \"icy\"", "fluid.path: unknown fluid path \"icy\"", "did you mean \"ice\"?"},
-    {"\"bulk_modulus\": 2e9", "\"bulk_modulus\": \"huge\"", "fluid.bulk_modulus: expected a number",
-     "found the text \"huge\""},
-    {"\"bulk_modulus\": 2e9", "\"eos\": {\"law\": \"linear_water\", \"bulk_modulus\": 2e9}",
-     "fluid.eos.bulk_modulus: is taken from \"bulk_modulus\"", "remove this"},
-    {"\"bulk_modulus\": 2e9", "\"region\": {\"box\": {\"min\": [null, 5], \"max\": [null, 6]}}",
-     "fluid.region: no place of the grid", "enlarge the region"},
-    /* sides */
-    {"\"y_min\": \"no_slip\"", "\"y_min\": \"periodic\"", "boundary.solid.y_max: the opposite side is periodic",
-     "make both or none periodic"},
-    {"\"y_min\": \"no_slip\"", "\"x_min\": \"periodic\", \"x_max\": \"periodic\"",
-     "boundary.fluid.x_min: solid and fluid share the grid", "for both or for none"},
-    {"{\"pressure\": 0}", "\"pressure\"", "boundary.fluid.y_max: \"pressure\" needs a value",
-     "write {\"pressure\": 0}"},
-    {"{\"pressure\": 0}", "{\"presure\": 0}", "boundary.fluid.y_max: expected one of", "write one of them"},
-    {"\"y_min\": \"no_slip\"", "\"y_min\": {\"pressure\": 0}", "boundary.solid.y_min: a solid has no pressure side",
-     "put a load"},
-    /* shapes and places */
-    {"{\"box\": {\"min\": [null, 0], \"max\": [null, 1]}}", "{\"bocks\": {}}",
-     "solids.column.shape: unknown shape \"bocks\"", "did you mean \"box\"?"},
-    {"{\"box\": {\"min\": [null, 0], \"max\": [null, 1]}}", "{\"box\": {\"min\": [null, 0]}}",
-     "solids.column.shape.box.max: is missing", "give the upper corner"},
-    {"{\"min\": [null, 0], \"max\": [null, 1]}", "{\"min\": [null, 1], \"max\": [null, 0]}",
-     "solids.column.shape.box: min 1 lies above max 0", "exchange them"},
-    {"{\"box\": {\"min\": [null, 0], \"max\": [null, 1]}}", "{\"polygon\": [[0, 0], [1, 1]]}",
-     "solids.column.shape.polygon: a polygon needs at least three", "give a list of [x, y]"},
-    {"{\"box\": {\"min\": [null, 0], \"max\": [null, 1]}}", "{\"union\": []}",
-     "solids.column.shape.union: expected a list of shapes", "give at least one"},
-    {"{\"min\": [null, 0], \"max\": [null, 1]}", "{\"min\": [null, 0], \"max\": [null, 1.3]}",
-     "solids.column.shape: the solid reaches y = 1.3, outside the grid", "enlarge the grid"},
-    {"{\"min\": [null, 0], \"max\": [null, 1]}", "{\"min\": [null, 0], \"max\": [null, 0.01]}",
-     "solids.column.shape: no point of the lattice lies in it", "enlarge the shape or refine"},
-    {"\"solids\": {", "\"solids\": {\"b\": {\"material\": \"sand\", \"shape\": \"everywhere\"}, ",
-     "solids.column.shape: it overlaps solids.b", "difference"},
-    {"\"material\": \"sand\"", "\"material\": \"sond\"", "solids.column.material: unknown material \"sond\"",
-     "did you mean \"sand\"?"},
-    {"{\"min\": [null, 1], \"max\": [null, 1]}", "{\"min\": [null, 0], \"max\": [null, 1]}",
-     "loads.top.on: a load acts on a surface", "equal along exactly one axis"},
-    {"{\"min\": [null, 1], \"max\": [null, 1]}", "{\"min\": [null, 2], \"max\": [null, 2]}",
-     "loads.top.on: the load reaches y = 2, outside the grid", "enlarge the grid"},
-    {"{\"min\": [null, 1], \"max\": [null, 1]}", "{\"min\": [null, 1.15], \"max\": [null, 1.15]}",
-     "loads.top.on: no solid lies within a cell", "move it onto the surface"},
-    {"[null, 0.9]", "[null, 9]", "tracers.tip: y = 9 lies outside the grid", "move it inside"},
-    {"\"tip\"", "\"top\"", "tracers.top: a load has this name too", "rename one"},
-    {"\"tip\"", "\"a tip\"", "tracers.a tip: a name may hold letters", "rename it"},
-    {"[0.05, 0.05]", "[0.05, -1]", "gauges.base.at: y = -1 lies outside the grid", "move it inside"},
-    {"\"kind\": \"point\"", "\"kind\": \"pint\"", "gauges.base.kind: unknown kind \"pint\"", "did you mean \"point\"?"},
-    {"\"of\": \"P\"", "\"of\": \"P\", \"region\": \"everywhere\"", "gauges.base: unknown key \"region\"",
-     "valid are: kind, of, at"},
-    {"\"on\": \"top\"", "\"on\": \"tap\"", "gauges.settlement.on: unknown load \"tap\"", "did you mean \"top\"?"},
-    /* references and metrics */
-    {"=materials.sand.young", "=materials.sand.yung",
-     "references.theory.young: \"=materials.sand.yung\" points at nothing", "give the path of a number"},
-    {"\"theory.P\"", "\"theory.Q\"", "metrics.p_rms_0.1.reference: unknown quantity \"Q\"", "valid are: P"},
-    {"\"theory.P\"", "\"theroy.P\"", "metrics.p_rms_0.1.reference: unknown reference \"theroy.P\"",
-     "valid are: theory"},
-    {"\"field\": \"P\", ", "", "metrics.p_rms_0.1: it needs one of \"field\" and \"gauge\"", "give exactly one"},
-    {"\"field\": \"P\", ", "\"gauge\": \"bose\", ", "metrics.p_rms_0.1.gauge: unknown gauge", "did you mean \"base\"?"},
-    {"\"reference\": \"theory.P\", ", "", "metrics.p_rms_0.1.time: \"scaled\" needs a reference", "use \"seconds\""},
-    /* overrides */
-    {"\"grid.h\": 0.05", "\"grid.hh\": 0.05", "variants.stiff.grid: unknown key \"hh\"", "did you mean \"h\"?"},
-    {"\"numerics.basis\": \"cubic\"", "\"numrics.basis\": 1", "paths.twopoint: unknown key \"numrics\"",
-     "did you mean \"numerics\"?"},
-    {"\"twopoint\": {", "\"twopiont\": {", "paths: unknown fluid path \"twopiont\"", "did you mean \"twopoint\"?"},
-    {"\"quick\": {\"grid.h\": 0.2, \"time.end\": 1}", "\"quick\": 3", "quick: expected an object",
-     "write {\"grid.h\": 0.04}"},
-    /* texts */
-    {"\"h\": 0.1}", "\"h\": 0.1", "line 21, column 1: the file ends inside the JSON", "a bracket is missing"},
-    {"\"h\": 0.1", "\"h\": NaN", "line 3, column 52: no valid JSON from \"NaN", "mend the text there"},
-    {"\n}\n", "\n", "the file ends inside the JSON", "cut off or a bracket is missing"},
-    {"\n}\n", "\n} x\n", "no valid JSON from \"x\"", "mend the text there"},
+#define BAD(old, new, path, remedy) {old, new, path, remedy},
+#include "bad_scenes.def"
+#undef BAD
 };
 
 START_TEST(tells_what_is_wrong)
@@ -544,6 +460,7 @@ static void add_good(TCase *tcase)
   tcase_add_test(tcase, sets_any_value);
   tcase_add_test(tcase, used_scene_is_a_fixed_point);
   tcase_add_test(tcase, expected_limits);
+  tcase_add_test(tcase, expected_is_checked);
   tcase_add_test(tcase, folder_of_a_run);
   tcase_add_test(tcase, shipped_cases);
 }
