@@ -17,15 +17,9 @@ enum status mpm_sort_points(struct sim *sim, double dt)
 /* every array of the set follows the new order; scratch of the last step is not needed any more */
 enum status mpm_sort_now(struct sim *sim, struct mpm *m)
 {
-  struct points *p = m->points;
-  int            dim = sim->grid.dim;
-  TRY(points_sort(&sim->grid, p, m->x_p));
-  for (int i = 0; i < module_mpm.n_fields; i++) {
-    const struct field *f = &module_mpm.fields[i];
-    double             *array = *(double **)((char *)m + f->offset);
-    if (f->at == AT_SOLID && f->kind == STATE && array) points_permute(p, field_components(f, dim), array);
-  }
-  points_sorted(p);
+  TRY(points_sort(&sim->grid, m->points, m->x_p));
+  points_permute_fields(m->points, sim->grid.dim, AT_SOLID, module_mpm.fields, module_mpm.n_fields, m);
+  points_sorted(m->points);
   return OK;
 }
 

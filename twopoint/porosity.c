@@ -1,0 +1,83 @@
+/* Porosity at nodes and water points, and the volume that the water fills. theory_twopoint 2 */
+#include "twopoint/twopoint.h"
+
+#include "core/parallel.h"
+#include "coupling/coupling.h"
+#include "mpm/mpm.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double least_porosity = 0.05; /* points crowd together at times */
+
+void twopoint_clear(const struct sim *sim, int n, double *field)
+{
+  memset(field, 0, (size_t)(sim->grid.size * n) * sizeof *field);
+}
+
+/* volume that the water fills at nodes; with `product` also volume times porosity of the points, into porosity_nc */
+static void gather_volumes(struct sim *sim, struct twopoint *w, bool product)
+{
+  struct scatter_args args = {.n = product ? 2 : 1,
+                              .x = w->x_w,
+                              .weight = w->volume_w,
+                              .value = {NULL, w->porosity_w},
+                              .node = {w->water_volume_nc, w->porosity_nc}};
+  for (int q = 0; q < args.n; q++) twopoint_clear(sim, 1, args.node[q]);
+  FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->scatter(&w->kernel_grid, &run, &args);
+  for (int q = 0; q < args.n; q++) boundary_fold(&w->kernel_grid, w->sides, 1, args.node[q]);
+}
+
+/* grains per *filled* volume: a surface where soil and water end together does not look like a loose soil */
+static double filled_porosity(const struct twopoint *w, long node)
+{
+  const struct coupling *c = w->coupling;
+  double                 room = c->room_nc[node], water_room = w->water_room_nc[node];
+  if (!(room > 0) || !(water_room > 0)) return 1;
+  double filled = fmin(1, fmax(c->bulk_nc[node] / room, w->water_volume_nc[node] / water_room));
+  return filled > 1e-9 ? fmax(least_porosity, 1 - c->solid_nc[node] / room / filled) : 1;
+}
+
+void twopoint_gather_porosity(struct sim *sim, struct twopoint *w)
+{
+  struct box nodes = boundary_nodes(&sim->grid, w->sides);
+  gather_volumes(sim, w, false);
+  FOR_BOX(&sim->grid, nodes, i) w->skeleton_porosity_nc[i] = filled_porosity(w, i);
+  boundary_ghosts(&w->kernel_grid, w->sides, 1, sim->t, w->skeleton_porosity_nc);
+  struct gather_args args = {.n = 1, .x = w->x_w, .node = {w->skeleton_porosity_nc}, .value = {w->porosity_w}};
+  FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->gather(&w->kernel_grid, &run, &args);
+}
+
+/* the porosity that the water of a node has: then share times force is mass times gravity at rest, node by node */
+static void average_porosity(struct sim *sim, struct twopoint *w)
+{
+  struct box nodes = boundary_nodes(&sim->grid, w->sides);
+  double     least = 1e-12 * grid_cell_volume(&sim->grid);
+  FOR_BOX(&sim->grid, nodes, i)
+  {
+    bool wet = w->water_volume_nc[i] > least && w->water_room_nc[i] > 0;
+    w->porosity_nc[i] = wet ? w->porosity_nc[i] / w->water_volume_nc[i] : w->skeleton_porosity_nc[i];
+  }
+  boundary_ghosts(&w->kernel_grid, w->sides, 1, sim->t, w->porosity_nc);
+}
+
+static void find_fill(struct sim *sim, struct twopoint *w)
+{
+  struct box nodes = boundary_nodes(&sim->grid, w->sides);
+  FOR_BOX(&sim->grid, nodes, i)
+  w->water_fill_nc[i] = w->water_room_nc[i] > 0 ? fmin(1, w->water_volume_nc[i] / w->water_room_nc[i]) : 0;
+  boundary_ghosts(&w->kernel_grid, w->sides, 1, sim->t, w->water_fill_nc);
+}
+
+enum status twopoint_find_porosity(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct twopoint *w = twopoint_of(sim);
+  if (w->coupling) twopoint_gather_porosity(sim, w);
+  PARALLEL_FOR
+  for (long p = 0; p < w->points->n; p++) w->volume_w[p] = w->mass_w[p] * w->J_w[p] / (w->rho0 * w->porosity_w[p]);
+  gather_volumes(sim, w, w->coupling != NULL);
+  if (w->coupling) average_porosity(sim, w);
+  find_fill(sim, w);
+  return OK;
+}

@@ -1,0 +1,86 @@
+/* Fluid path: one liquid as a second set of material points, explicit and weakly compressible. docs/theory_twopoint.md
+ */
+#ifndef TWOPOINT_TWOPOINT_H
+#define TWOPOINT_TWOPOINT_H
+
+#include "core/sim.h"
+#include "mpm/kernels/kernels.h"
+
+struct coupling;
+struct mpm;
+
+struct twopoint_params {
+  int    averaging_interval; /* steps between two averages of the pressure; 0: never */
+  bool   average_increment;  /* the increment of ln J is averaged in every step */
+  bool   tension;            /* water pulls even where it does not fill the space */
+  double max_expansion;      /* J is at most 1 + this */
+};
+
+struct twopoint {
+#define FIELD FIELD_MEMBER
+#include "twopoint/fields.def"
+#undef FIELD
+  const struct twopoint_params *params;
+  const struct kernels         *kernels;
+  struct points                *points;
+  struct coupling              *coupling;     /* NULL: no skeleton */
+  struct mpm                   *mpm;          /* NULL: no skeleton that moves */
+  struct side_condition         sides[SIDES]; /* of the water; borrowed functions; a pressure side is open */
+  struct kernel_grid            kernel_grid;
+  struct kernel_grid            average_grid; /* walls extrapolate: averages keep linear fields up to the wall */
+  unsigned char                *water_bound, *solid_bound; /* [size][dim] 1: a wall prescribes this component */
+  double                       *run_speed;                 /* [n_runs] m/s, fastest point */
+  double                        mass_floor;                /* kg: a node with less water has no velocity */
+  double                        rho0;                      /* kg/m3 at P = 0 */
+  double                        fast_wave;                 /* m/s, c_f */
+  bool                          grains_held; /* some skeleton does not move and takes its share of forces */
+  struct twopoint_numbers {
+    double speed; /* m/s, fastest point of the last step */
+  } now;
+};
+
+extern const struct module module_twopoint;
+
+static inline struct twopoint *twopoint_of(const struct sim *sim) { return sim_state(sim, &module_twopoint); }
+
+enum { WATER_BATCH = 128 }; /* points or nodes that are handed to a law at once */
+
+/** Scene: refuses what this path cannot do. */
+enum status twopoint_check(const struct scene *scene) MUST_CHECK;
+enum status twopoint_create(struct sim *sim, void *state) MUST_CHECK;
+void        twopoint_destroy(void *state);
+void        twopoint_measure(const struct sim *sim, struct ledger *ledger);
+
+enum status twopoint_sort_points(struct sim *sim, double dt);
+enum status twopoint_find_porosity(struct sim *sim, double dt);
+enum status twopoint_points_to_nodes(struct sim *sim, double dt);
+enum status twopoint_predict_nodes(struct sim *sim, double dt);
+enum status twopoint_resist_nodes(struct sim *sim, double dt);
+enum status twopoint_exchange_momentum(struct sim *sim, double dt);
+enum status twopoint_update_pressure(struct sim *sim, double dt);
+enum status twopoint_nodes_to_points(struct sim *sim, double dt);
+double      twopoint_dt_limit(const struct sim *sim);
+
+/** m/s: fast wave of water and a skeleton that drag has not locked yet, largest eigenvalue of R^-1 S. n: porosity;
+ *  E_oed Pa; rho_s, rho kg/m3; K Pa. A skeleton that is held: rho_s = INFINITY. */
+double twopoint_fast_wave(double n, double E_oed, double rho_s, double rho, double K);
+
+/** Sorts the water now, whether needed or not. */
+enum status twopoint_sort_now(struct sim *sim, struct twopoint *w) MUST_CHECK;
+/** Porosity at the nodes, from the volumes that the points have, and at the points. */
+void twopoint_gather_porosity(struct sim *sim, struct twopoint *w);
+/** P_w from J_w, or J_w from P_w, by the law. */
+void twopoint_pressure_of_volume(const struct sim *sim, struct twopoint *w);
+void twopoint_volume_of_pressure(const struct sim *sim, struct twopoint *w);
+/** Replaces q [n] of the points by its average over volume, point -> node -> point; gradient [n][dim]: of q at the
+ * points, used so that linear fields stay as they are, then replaced by that of the average; NULL: zeroth order. */
+void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient);
+/** Fastest point. ERR_DIVERGED if it has no finite velocity. */
+enum status twopoint_find_speed(struct sim *sim, struct twopoint *w) MUST_CHECK;
+
+/** Whether the solid or a held skeleton takes its share of the forces at a node. */
+bool twopoint_shares(const struct twopoint *w, long node);
+/** Sets a node field [size][n] to zero. */
+void twopoint_clear(const struct sim *sim, int n, double *field);
+
+#endif
