@@ -83,7 +83,9 @@ static enum status find_file(const char *word, char file[LONGEST_PATH])
     return FAIL(ERR_INPUT, "%.40s...: the path has more than %d characters; shorten it", word, LONGEST_PATH - 1);
   bool is_path = strchr(word, '/') || (strlen(word) > 5 && strcmp(word + strlen(word) - 5, ".json") == 0);
   if (files_exists(file)) return OK;
-  if (is_path && join(word, ".", "scene.json", file) && files_exists(file)) return OK;
+  bool fits =
+      snprintf(file, LONGEST_PATH, "%s%sscene.json", word, word[strlen(word) - 1] == '/' ? "" : "/") < LONGEST_PATH;
+  if (is_path && fits && files_exists(file)) return OK;
   for (int i = 0; !is_path && scene_cases_folder(i, folder); i++)
     if (join(folder, word, "scene.json", file) && files_exists(file)) return OK;
   return is_path ? FAIL(ERR_INPUT, "%s: there is no such file; check the path", word) : fail_case(word);
