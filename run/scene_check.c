@@ -209,5 +209,6 @@ enum status scene_check(struct reader *reader, struct scene *scene)
   TRY(check_materials(reader, scene));
   TRY(check_metrics(reader, scene));
   at(reader, "%s", "");
-  return scene_check_places(reader, scene);
+  TRY(scene_check_places(reader, scene));
+  return scene_check_words(reader, scene);
 }

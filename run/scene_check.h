@@ -10,6 +10,8 @@
 enum status scene_check(struct reader *reader, struct scene *scene) MUST_CHECK;
 /** Solids inside the grid, not empty, not overlapping; loads on a solid; tracers and gauges inside the grid. */
 enum status scene_check_places(struct reader *reader, struct scene *scene) MUST_CHECK;
+/** Gauges and metrics speak of fields, ledger entries and movements that this scene has. */
+enum status scene_check_words(struct reader *reader, const struct scene *scene) MUST_CHECK;
 
 /** Points of the regular lattice (points per axis in every cell) that lie in a shape. */
 long scene_count_points(const struct scene *scene, const struct shape *shape);

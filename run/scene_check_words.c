@@ -1,0 +1,101 @@
+/* Whether gauges and metrics speak of quantities that this scene has. */
+#include "core/ledger.h"
+#include "run/fields.h"
+#include "run/plan.h"
+#include "run/scene_check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { WORD = 2 * NAME_LENGTH, MOST = 96 };
+
+/* Names of what may be asked for, with room for them. */
+struct words {
+  struct names names;
+  char         text[MOST][WORD];
+};
+
+static void add_word(struct words *words, const char *set, const char *name, const char *suffix)
+{
+  int n = words->names.n;
+  if (n == MOST) return;
+  snprintf(words->text[n], WORD, "%s%s%s%s%s", set, *set ? "." : "", name, *suffix ? "_" : "", suffix);
+  names_add(&words->names, words->text[n]);
+}
+
+static bool takes_part(const struct scene *scene, const struct module *m)
+{
+  if (m->is_fluid_path) return scene->fluid.present && scene->fluid.path == m;
+  return !m->needed || m->needed(scene);
+}
+
+/** Every component of every written field, as "P", "vel_x", and as "solid.vel_x". */
+static void add_fields(const struct scene *scene, struct words *words, bool with_set)
+{
+  for (int i = 0; all_modules[i]; i++)
+    for (int k = 0; takes_part(scene, all_modules[i]) && k < all_modules[i]->n_fields; k++) {
+      const struct field *f = &all_modules[i]->fields[k];
+      if (!f->output || !fields_set(f->at)) continue;
+      for (int c = 0; c < field_components(f, scene->dim); c++)
+        add_word(words, with_set ? fields_set(f->at) : "", f->output, fields_suffix(f, scene->dim, c));
+    }
+}
+
+static void add_ledger(struct words *words)
+{
+  static const char *const entries[] = {
+#define LEDGER(name, unit, meaning) #name,
+#include "core/ledger.def"
+#undef LEDGER
+  };
+  for (int i = 0; i < N_LEDGER; i++) add_word(words, "", entries[i], "");
+  add_word(words, "", "energy", "");
+}
+
+static void add_marker(const struct scene *scene, struct words *words)
+{
+  static const char *const axes[] = {"x", "y", "z"};
+  for (int d = 0; d < scene->dim; d++) {
+    add_word(words, "", "displacement", axes[d]);
+    add_word(words, "", "position", axes[d]);
+  }
+  add_word(words, "", "distance", "");
+}
+
+static enum status check_word(struct reader *reader, const char *word, const struct words *words,
+                              const struct words *more)
+{
+  for (int i = 0; i < words->names.n; i++)
+    if (strcmp(words->names.name[i], word) == 0) return OK;
+  for (int i = 0; more && i < more->names.n; i++)
+    if (strcmp(more->names.name[i], word) == 0) return OK;
+  return reader_unknown(reader, "quantity", word, &words->names);
+}
+
+static enum status check_gauge(struct reader *reader, const struct scene *scene, const struct gauge *g)
+{
+  struct words words = {0}, with_set = {0};
+  bool         marker = g->kind == GAUGE_TRACER || g->kind == GAUGE_LOAD;
+  snprintf(reader->path, sizeof reader->path, "gauges.%s.of", g->name);
+  if (marker) add_marker(scene, &words);
+  if (!marker) add_fields(scene, &words, false);
+  if (!marker) add_fields(scene, &with_set, true);
+  if (g->kind == GAUGE_INTEGRAL) add_ledger(&words);
+  return check_word(reader, g->of, &words, &with_set);
+}
+
+static enum status check_metric(struct reader *reader, const struct scene *scene, const struct metric *m)
+{
+  struct words words = {0}, with_set = {0};
+  snprintf(reader->path, sizeof reader->path, "metrics.%s.field", m->name);
+  add_fields(scene, &words, false);
+  add_fields(scene, &with_set, true);
+  return *m->field ? check_word(reader, m->field, &words, &with_set) : OK;
+}
+
+enum status scene_check_words(struct reader *reader, const struct scene *scene)
+{
+  for (int i = 0; i < scene->n_gauges; i++) TRY(check_gauge(reader, scene, &scene->gauges[i]));
+  for (int i = 0; i < scene->n_metrics; i++) TRY(check_metric(reader, scene, &scene->metrics[i]));
+  return OK;
+}
