@@ -18,6 +18,10 @@ extern const struct module module_coupling;
 
 static inline struct coupling *coupling_of(const struct sim *sim) { return sim_state(sim, &module_coupling); }
 
+/** Porosities of nodes, cells and faces from the volumes and fluid_fill_nc: a path that meets the solid at faces calls it
+ *  when it starts. */
+enum status coupling_fill_cells(struct sim *sim, double dt) MUST_CHECK;
+
 enum { DRAG_BATCH = 128 };
 
 /** Resistance of n <= DRAG_BATCH places, K [n] kg/m3/s per volume of *space*, so that the force on the fluid per volume is

@@ -6,7 +6,6 @@
 
 enum status coupling_gather_volumes(struct sim *sim, double dt);
 enum status coupling_gather_media(struct sim *sim, double dt);
-enum status coupling_fill_cells(struct sim *sim, double dt);
 enum status coupling_push_solid(struct sim *sim, double dt);
 
 #endif

@@ -65,7 +65,12 @@ static inline double node_mean(const double *q, long at, int n, const long *offs
   return sum / n;
 }
 
-/* grains and skeleton per room at nodes; on a periodic axis the last plane copies the first */
+/* below this a node holds nothing worth a division */
+static const double least_filled = 1e-9;
+
+/* Grains and skeleton per *filled* room: where soil and water end together at a surface, half of the node's room is void and
+ * belongs to neither. Over the whole room the pore water would weigh too much there (1 % of the load is lost per cell of
+ * the column). On a periodic axis the last plane copies the first. */
 static void node_fractions(struct sim *sim, struct coupling *c)
 {
   const struct mpm  *m = mpm_of(sim);
@@ -73,8 +78,9 @@ static void node_fractions(struct sim *sim, struct coupling *c)
   struct box         nodes = grid_nodes(g);
   FOR_BOX(g, nodes, n)
   {
-    c->grains_share_nc[n] = c->solid_nc[n] / c->room_nc[n];
-    c->fill_nc[n] = c->bulk_nc[n] / c->room_nc[n];
+    double skeleton = c->bulk_nc[n] / c->room_nc[n], filled = fmax(least_filled, fmin(1, fmax(skeleton, c->fluid_fill_nc[n])));
+    c->grains_share_nc[n] = c->solid_nc[n] / (c->room_nc[n] * filled);
+    c->fill_nc[n] = skeleton / filled;
   }
   boundary_ghosts(&m->kernel_grid, sim->scene->solid_side, 1, sim->t, c->grains_share_nc);
   boundary_ghosts(&m->kernel_grid, sim->scene->solid_side, 1, sim->t, c->fill_nc);
@@ -90,6 +96,7 @@ static void cell_fractions(struct sim *sim, struct coupling *c)
   long               offset[8];
   int                n = grid_node_offsets(g, -1, offset);
   FOR_BOX(g, cells, i) c->porosity_cc[i] = fmax(least_porosity, 1 - node_mean(c->grains_share_nc, i, n, offset));
+  grid_fill_periodic(g, 1, c->porosity_cc);
 }
 
 /* the medium's own porosity is grains over skeleton: a half-filled face has half the resistance, not that of a loose soil */

@@ -68,12 +68,8 @@ static void remember_faces(struct sim *sim, struct ice *ice)
     struct box faces = grid_faces(g, axis);
     FOR_BOX(g, faces, f)
     {
-      long q = axis * g->size + f, low = f - g->stride[axis];
-      ice->beyond_fc[q] = 0;
-      if (ice->kind[q] != FACE_INNER) continue;
-      double ml = ice->mass_cc[low], mh = ice->mass_cc[f];
-      ice->beyond_fc[q] =
-          ice->u_fc[q] - (ml * ice->vel_cc[low * g->dim + axis] + mh * ice->vel_cc[f * g->dim + axis]) / (ml + mh);
+      long q = axis * g->size + f;
+      ice->beyond_fc[q] = ice->kind[q] == FACE_INNER ? ice->u_fc[q] - ice_mean_velocity(sim, ice, axis, f) : 0;
     }
   }
 }

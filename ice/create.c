@@ -203,6 +203,8 @@ enum status ice_create(struct sim *sim, void *state)
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
   fill_cells(sim, ice);
+  if (c) TRY(ice_mark_extent(sim, 0));
+  if (c) TRY(coupling_fill_cells(sim, 0));
   classify_faces(sim, ice);
   weigh_cells(sim, ice, false);
   TRY(rest_pressures(sim, ice));

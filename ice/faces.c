@@ -45,6 +45,31 @@ double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int ax
   return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].pressure, x, t);
 }
 
+enum status ice_mark_extent(struct sim *sim, double dt)
+{
+  (void)dt;
+  const struct ice      *ice = ice_of(sim);
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  struct box             nodes = grid_nodes(g);
+  long                   offset[8];
+  int                    around = grid_node_offsets(g, -1, offset);
+  FOR_BOX(g, nodes, n)
+  {
+    int    place[3], cells = 0;
+    double wet = 0;
+    for (int i = 0; i < around; i++) {
+      bool inside = true;
+      grid_place(g, n - offset[i], place);
+      for (int d = 0; d < g->dim; d++) inside = inside && (g->periodic[d] || (place[d] >= 0 && place[d] < g->n[d]));
+      cells += inside;
+      if (inside) wet += ice->wet_cc[n - offset[i]];
+    }
+    c->fluid_fill_nc[n] = wet / cells;
+  }
+  return OK;
+}
+
 /* density from the carried pressure, row by row; how far mass and pressure disagree */
 enum status ice_update_properties(struct sim *sim, double dt)
 {
@@ -68,14 +93,16 @@ enum status ice_update_properties(struct sim *sim, double dt)
   return OK;
 }
 
-/* velocity of the fluid at a face: mass-weighted mean of its wet cells, and a share of what it had beyond that */
-static double face_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
+double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   const struct grid *g = &sim->grid;
   long               low = f - g->stride[axis];
-  double             ml = ice->wet_cc[low] * ice->mass_cc[low], mh = ice->wet_cc[f] * ice->mass_cc[f];
-  double             mean = (ml * ice->vel_cc[low * g->dim + axis] + mh * ice->vel_cc[f * g->dim + axis]) / (ml + mh);
-  return mean + ice->params->memory * ice->beyond_fc[axis * g->size + f];
+  double             momentum = 0, wet = ice->wet_cc[low] + ice->wet_cc[f];
+  for (int high = 0; high < 2; high++) {
+    long c = high ? f : low;
+    if (ice->wet_cc[c] > 0) momentum += ice->porosity_cc[c] * ice->rho_cc[c] * ice->vel_cc[c * g->dim + axis];
+  }
+  return momentum / (wet * ice->porosity_fc[axis * g->size + f] * ice_face_density(ice, low, f));
 }
 
 enum status ice_predict_faces(struct sim *sim, double dt)
@@ -93,7 +120,7 @@ enum status ice_predict_faces(struct sim *sim, double dt)
       double outside = ice_outside_pressure(sim, ice, axis, f, sim->t + dt);
       double high_P = ice->wet_cc[f] > 0 ? ice->P_cc[f] : outside, low_P = ice->wet_cc[low] > 0 ? ice->P_cc[low] : outside;
       ice->gradP_fc[base + f] = (high_P - low_P) / (ice_face_distance(sim, ice, axis, f) * g->h);
-      ice->u_old_fc[base + f] = face_velocity(sim, ice, axis, f);
+      ice->u_old_fc[base + f] = ice_mean_velocity(sim, ice, axis, f) + ice->params->memory * ice->beyond_fc[base + f];
     }
   }
   return OK;
