@@ -284,16 +284,14 @@ static enum status direct_run(struct linear *l, const double *diagonal, const do
     int  place[3] = {(int)(c % g->n[0]), (int)(c / g->n[0] % g->n[1]), (int)(c / g->n[0] / g->n[1])};
     long at = grid_at(g, place[0], place[1], place[2]);
     for (int e = column[c]; e < column[c + 1]; e++) {
-      if (row[e] == c) value[e] = diagonal[at];
+      value[e] = row[e] == c ? diagonal[at] : 0; /* a coupling that has become zero must not keep its last value */
       for (int d = 0; d < g->dim && row[e] != c; d++) {
-        long   up = upper_neighbour(g, at, d), low = lower_neighbour(g, at, d);
-        int    q[3];
-        double k = 0;
+        long up = upper_neighbour(g, at, d), low = lower_neighbour(g, at, d);
+        int  q[3];
         grid_place(g, up, q);
-        if (has_upper(g, place, d) && flat_of(g, q) == row[e]) k += coupling[d * g->size + up];
+        if (has_upper(g, place, d) && flat_of(g, q) == row[e]) value[e] += coupling[d * g->size + up];
         grid_place(g, low, q);
-        if ((g->periodic[d] || place[d] > 0) && flat_of(g, q) == row[e]) k += coupling[d * g->size + at];
-        if (k != 0) value[e] = k;
+        if ((g->periodic[d] || place[d] > 0) && flat_of(g, q) == row[e]) value[e] += coupling[d * g->size + at];
       }
     }
   }
