@@ -2,7 +2,6 @@
 """Whether two output folders hold the same run bit by bit: gauges, and every field of the snapshots at the same time.
 
 usage: same_run.py FOLDER FOLDER
-       same_run.py FOLDER     prints a time half way, at which the run stopped anyway to write gauges
 """
 import glob
 import json
@@ -28,13 +27,6 @@ def snapshots(folder):
     return found
 
 
-def half_way(folder):
-    with open(f"{folder}/gauges.csv") as file:
-        rows = file.read().splitlines()[1:]
-    print(rows[len(rows) // 2].split(",")[0])
-    return 0
-
-
 def main(a, b):
     faults = []
     with open(f"{a}/gauges.csv") as left, open(f"{b}/gauges.csv") as right:
@@ -42,7 +34,7 @@ def main(a, b):
     if left != right or left.count("\n") < 3:
         faults.append("gauges.csv")
     left, right = snapshots(a), snapshots(b)
-    if len(left.keys() & right.keys()) < 2 or left.keys() - right.keys():
+    if len(left.keys() & right.keys()) < 2 or left.keys() ^ right.keys():
         faults.append(f"times of snapshots {sorted(left)} and {sorted(right)}")
     for key in sorted(left.keys() & right.keys()):
         one, other = arrays(left[key]), arrays(right[key])
@@ -53,4 +45,4 @@ def main(a, b):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]) if len(sys.argv) == 3 else half_way(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:3]))
