@@ -134,7 +134,7 @@ cJSON *json_member(const cJSON *object, const char *name)
 
 bool json_is_comment(const cJSON *member)
 {
-  return strncmp(member->string, "//", 2) == 0 || strcmp(member->string, "$schema") == 0;
+  return !member->string || strncmp(member->string, "//", 2) == 0 || strcmp(member->string, "$schema") == 0;
 }
 
 size_t json_name_length(const cJSON *object, const char *path)

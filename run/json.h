@@ -17,7 +17,7 @@ enum status json_load(const char *file, cJSON **json) MUST_CHECK;
 enum status json_from_word(const char *origin, const char *text, cJSON **json) MUST_CHECK;
 /** The member of that exact name; NULL: none. */
 cJSON *json_member(const cJSON *object, const char *name);
-/** Members whose name starts with // are comments; "$schema", for editors, counts as one. */
+/** Members whose name starts with // are comments; "$schema", for editors, and what has no name count too. */
 bool json_is_comment(const cJSON *member);
 /** What lies at a dotted path ("materials.sand.young", "grid.max.1"); NULL: nothing. Names may hold dots. */
 cJSON *json_find(const cJSON *root, const char *path);

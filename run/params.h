@@ -45,7 +45,7 @@ void params_range(const struct param *p, char *text, size_t size);
 /* Collects names, to say which is nearest to a wrong one and which there are. */
 struct names {
   int         n;
-  const char *name[128];
+  const char *name[256]; /* more are left out of the message */
 };
 
 void names_add(struct names *names, const char *name);

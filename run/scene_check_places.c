@@ -248,11 +248,13 @@ static enum status check_tracers(struct reader *reader, struct scene *scene)
 static enum status check_rider(struct reader *reader, const struct scene *scene, const struct gauge *g)
 {
   struct names names = {0};
-  for (int i = 0; i < scene->n_loads && g->kind == GAUGE_LOAD; i++) names_add(&names, scene->loads[i].name);
-  for (int i = 0; i < scene->n_tracers && g->kind == GAUGE_TRACER; i++) names_add(&names, scene->tracers[i].name);
-  for (int i = 0; i < names.n; i++)
-    if (strcmp(names.name[i], g->on) == 0) return OK;
-  return reader_unknown(at(reader, "gauges", g->name, "on"), g->kind == GAUGE_LOAD ? "load" : "tracer", g->on, &names);
+  bool         of_load = g->kind == GAUGE_LOAD;
+  for (int i = 0; i < (of_load ? scene->n_loads : scene->n_tracers); i++) {
+    const char *name = of_load ? scene->loads[i].name : scene->tracers[i].name;
+    if (strcmp(name, g->on) == 0) return OK;
+    names_add(&names, name);
+  }
+  return reader_unknown(at(reader, "gauges", g->name, "on"), of_load ? "load" : "tracer", g->on, &names);
 }
 
 static enum status check_gauges(struct reader *reader, struct scene *scene)

@@ -4,10 +4,11 @@
 #include "run/plan.h"
 #include "run/scene_check.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { WORD = 2 * NAME_LENGTH, MOST = 96 };
+enum { WORD = 2 * NAME_LENGTH, MOST = 256 };
 
 /* Names of what may be asked for, with room for them. */
 struct words {
@@ -18,7 +19,7 @@ struct words {
 static void add_word(struct words *words, const char *set, const char *name, const char *suffix)
 {
   int n = words->names.n;
-  if (n == MOST) return;
+  assert(n < MOST);
   snprintf(words->text[n], WORD, "%s%s%s%s%s", set, *set ? "." : "", name, *suffix ? "_" : "", suffix);
   names_add(&words->names, words->text[n]);
 }

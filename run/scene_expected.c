@@ -62,11 +62,14 @@ static enum status check_entry(struct reader *reader, const cJSON *entry)
 static enum status check_metrics(struct reader *reader, const struct scene *scene, const cJSON *path)
 {
   struct names names = {0};
+  if (!cJSON_IsObject(path))
+    return reader_fail(reader, "expected an object of metrics, found %s; write {\"name\": {\"limit\": 0.01}}",
+                       json_type(path));
   for (int i = 0; i < scene->n_metrics; i++) names_add(&names, scene->metrics[i].name);
   for (const cJSON *entry = path->child; entry; entry = entry->next) {
     bool known = false;
-    for (int i = 0; i < scene->n_metrics; i++) known = known || strcmp(scene->metrics[i].name, entry->string) == 0;
     if (json_is_comment(entry)) continue;
+    for (int i = 0; i < scene->n_metrics; i++) known = known || strcmp(scene->metrics[i].name, entry->string) == 0;
     if (!known) return reader_unknown(reader, "metric", entry->string, &names);
     size_t mark = reader_enter(reader, entry->string);
     TRY(check_entry(reader, entry));

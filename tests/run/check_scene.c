@@ -264,6 +264,7 @@ START_TEST(expected_is_checked)
        "stiff+soft.ice.p_rms_0.1: unknown key \"limt\"; did you mean \"limit\"?"},
       {"{\"stiff+soft\": {\"ice\": {\"p_rms_0.1\": {\"limit\": \"1\"}}}}",
        "stiff+soft.ice.p_rms_0.1.limit: expected a number"},
+      {"{\"stiff+soft\": {\"ice\": [1]}}", "stiff+soft.ice: expected an object of metrics"},
       {"{\"stiff+soft\": ", "the file ends inside the JSON"},
   };
   char argument[96];
