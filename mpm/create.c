@@ -57,8 +57,8 @@ static void place_point(const struct scene *scene, struct mpm *m, long p, const 
   int                    dim = scene->dim;
   double                 volume = mpm_point_volume(scene);
   m->volume_p[p] = volume;
-  m->volume_solid_p[p] = (1 - material->porosity) * volume;
-  m->mass_p[p] = material->density * m->volume_solid_p[p];
+  if (m->volume_solid_p) m->volume_solid_p[p] = (1 - material->porosity) * volume;
+  if (m->mass_p) m->mass_p[p] = material->density * (1 - material->porosity) * volume;
   for (int d = 0; d < dim; d++) {
     m->x_p[p * dim + d] = x[d];
     if (m->vel_p) m->vel_p[p * dim + d] = function_value(&solid->velocity[d], x, 0);

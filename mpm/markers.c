@@ -1,6 +1,7 @@
 /* Markers: points of loaded surfaces and tracers, which ride on the solid's nodal velocity. theory 3.3 */
 #include "mpm/stages.h"
 
+#include <math.h>
 #include <string.h>
 
 /* force on the solid at marker i: traction, and pressure against the outward normal; N */
@@ -13,13 +14,31 @@ static void marker_force(const struct sim *sim, const struct mpm *m, const struc
     force[d] = m->marker_area[i] * (function_value(&load->traction[d], x, t) - p * m->marker_normal[i][d]);
 }
 
+/* a node with less than this of the heaviest mass around a marker carries no load, as it could not pass it on, and its
+ * velocity is not the solid's */
+static const double light_node = 1e-3;
+
+/* nodes of a marker and its weights over those that hold enough of the solid; their sum is one */
+static void marker_weights(const struct sim *sim, const struct mpm *m, long i, long *node, double *w)
+{
+  m->kernels->weights(&m->kernel_grid, m->x_m + i * sim->grid.dim, node, w, NULL);
+  double heaviest = 0, kept = 0;
+  int    n = m->kernels->n_support;
+  for (int q = 0; q < n; q++) heaviest = fmax(heaviest, m->mass_nc[node[q]]);
+  for (int q = 0; q < n; q++) {
+    if (m->mass_nc[node[q]] <= light_node * heaviest) w[q] = 0;
+    kept += w[q];
+  }
+  for (int q = 0; q < n && kept > 0; q++) w[q] /= kept;
+}
+
 /* velocity of the solid at a marker */
 static void marker_velocity(const struct sim *sim, const struct mpm *m, long i, double vel[3])
 {
   long   node[MAX_SUPPORT];
   double w[MAX_SUPPORT];
   int    dim = sim->grid.dim;
-  m->kernels->weights(&m->kernel_grid, m->x_m + i * dim, node, w, NULL);
+  marker_weights(sim, m, i, node, w);
   memset(vel, 0, 3 * sizeof *vel);
   for (int q = 0; q < m->kernels->n_support; q++)
     for (int d = 0; d < dim; d++) vel[d] += w[q] * m->vel_new_nc[node[q] * dim + d];
@@ -33,7 +52,7 @@ enum status mpm_load_surfaces(struct sim *sim, double dt)
     for (long i = k ? m->marker_end[k - 1] : 0; i < m->marker_end[k]; i++) {
       long   node[MAX_SUPPORT];
       double w[MAX_SUPPORT], force[3];
-      m->kernels->weights(&m->kernel_grid, m->x_m + i * dim, node, w, NULL);
+      marker_weights(sim, m, i, node, w);
       marker_force(sim, m, &sim->scene->loads[k], i, sim->t + 0.5 * dt, force);
       for (int q = 0; q < m->kernels->n_support; q++)
         for (int d = 0; d < dim; d++) m->force_nc[node[q] * dim + d] += w[q] * force[d];

@@ -39,7 +39,7 @@ static const struct stage stages[] = {
      "a solid moves, APIC or AFLIP", moves_affine, mpm_points_to_nodes, NULL},
     {"mpm.points_to_nodes_plain", SLOT_points_to_nodes, POINT_STATE, "mass_nc mom_nc force_nc", "3.1",
      "a solid moves, PIC or FLIP", moves_plain, mpm_points_to_nodes, NULL},
-    {"mpm.load_surfaces", SLOT_points_to_nodes, "x_m", "force_nc", "3.3", "the scene has loads", loaded, mpm_load_surfaces, NULL},
+    {"mpm.load_surfaces", SLOT_points_to_nodes, "x_m mass_nc", "force_nc", "3.3", "the scene has loads", loaded, mpm_load_surfaces, NULL},
     {"mpm.fold_nodes", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.2", "a solid moves",
      mpm_solid_moves, mpm_fold_nodes, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "a solid moves", mpm_solid_moves,
@@ -48,7 +48,7 @@ static const struct stage stages[] = {
      "a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
     {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
      "x_p vel_p displacement_p gradv_p x_m", "3.1", "a solid moves, with loads or tracers", marked, mpm_nodes_to_points, NULL},
-    {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p mass_nc", "mom_nc vel_new_nc gradv_p", "3.1",
+    {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
     {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3", "a solid moves",
      mpm_solid_moves, mpm_update_stress, mpm_stress_dt},
@@ -75,7 +75,7 @@ static enum status create(struct sim *sim, void *state)
   TRY(mpm_create_markers(sim, m));
   TRY(mpm_sort_now(sim, m));
   m->mass_floor = INFINITY;
-  for (long p = 0; p < m->points->n; p++) m->mass_floor = fmin(m->mass_floor, 1e-9 * m->mass_p[p]);
+  for (long p = 0; p < m->points->n && m->mass_p; p++) m->mass_floor = fmin(m->mass_floor, 1e-12 * m->mass_p[p]);
   return m->moves ? mpm_first_speeds(sim, m) : OK;
 }
 
@@ -126,7 +126,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   const struct mpm *m = mpm_of(sim);
   double            gravity[3];
   sim_gravity(sim, sim->t, gravity);
-  for (long p = 0; p < m->points->n; p++) measure_point(sim, m, gravity, p, l);
+  for (long p = 0; p < m->points->n && m->mass_p; p++) measure_point(sim, m, gravity, p, l);
   l->v[LEDGER_work_loads] += m->now.work_loads;
 }
 

@@ -27,18 +27,18 @@ static void clear(const struct grid *g, int n, double *field) { memset(field, 0,
 
 static bool held(const struct sim *sim, int group) { return sim->scene->materials[group].model->held; }
 
-/* gathers momentum, and with `all` also mass and force */
-static void gather_points(struct sim *sim, struct mpm *m, bool all)
+/* gathers mass and momentum, and with `force` the internal force */
+static void gather_points(struct sim *sim, struct mpm *m, bool force)
 {
   const struct p2g_args args = {.x = m->x_p,
                                 .vel = m->vel_p,
                                 .affine = m->affine_p,
                                 .mass = m->mass_p,
                                 .volume = m->volume_p,
-                                .stress = all ? m->stress_p : NULL,
-                                .mass_nc = all ? m->mass_nc : NULL,
+                                .stress = force ? m->stress_p : NULL,
+                                .mass_nc = m->mass_nc,
                                 .mom_nc = m->mom_nc,
-                                .force_nc = all ? m->force_nc : NULL};
+                                .force_nc = force ? m->force_nc : NULL};
   FOR_RUNS(m->points, &sim->grid, run, group) if (!held(sim, group)) m->kernels->p2g(&m->kernel_grid, &run, &args);
 }
 
@@ -77,13 +77,16 @@ enum status mpm_fold_nodes(struct sim *sim, double dt)
   return OK;
 }
 
-/* MUSL: the velocity whose gradient strains the points is gathered from their new velocities. Sulsky et al. 1995 */
+/* MUSL: the velocity whose gradient strains the points is gathered from their new velocities, at their new places (mass
+ * too: old masses under new momenta tear free surfaces apart). Sulsky et al. 1995 */
 enum status mpm_remap_momentum(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
   const struct side_condition *sides = sim->scene->solid_side;
+  clear(&sim->grid, 1, m->mass_nc);
   clear(&sim->grid, sim->grid.dim, m->mom_nc);
   gather_points(sim, m, false);
+  boundary_fold(&m->kernel_grid, sides, 1, m->mass_nc);
   boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
   velocities(sim, m, m->vel_new_nc);
   boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, m->vel_new_nc);

@@ -269,7 +269,7 @@ static const struct param numerics_params[] = {
     {"transfer", PARAM_CHOICE, AT(numerics, transfer), "-", 0, 0, "aflip", TRANSFER_WORDS,
      "how points take velocities from nodes"},
     {"aflip_beta", PARAM_NUMBER, AT(numerics, aflip_beta), "-", 0, 1, "1", NULL, "blend of aflip: 1 apic, 0 flip"},
-    {"stress_timing", PARAM_CHOICE, AT(numerics, stress_timing), "-", 0, 0, "musl", "usl|musl",
+    {"stress_timing", PARAM_CHOICE, AT(numerics, stress_timing), "-", 0, 0, "usl", "usl|musl",
      "musl gathers momentum again before the stress"},
     {"wall_basis", PARAM_CHOICE, AT(numerics, wall_basis), "-", 0, 0, "mirrored", "mirrored|modified",
      "basis functions at the sides of the grid"},
