@@ -37,12 +37,13 @@ static void print_row(const struct page *page, const char *key, const char *valu
   char cells[2][CELL];
   escape(page, value, cells[0]);
   escape(page, meaning, cells[1]);
-  const char *none = fallback ? (*fallback ? fallback : "empty") : "required";
+  const char *given = fallback ? (*fallback ? fallback : "empty") : "required";
+  bool        has_unit = unit && strcmp(unit, "-") != 0;
   if (page->markdown)
-    fprintf(page->out, "| `%s` | %s | %s | %s | %s | %s |\n", key, cells[0], unit ? unit : "-", range, none, cells[1]);
+    fprintf(page->out, "| `%s` | %s | %s | %s | %s | %s |\n", key, cells[0], unit ? unit : "-", range, given, cells[1]);
   else
-    fprintf(page->out, "  %-20s %s%s%s %s; default: %s; %s\n", key, cells[0], *range ? " " : "", range,
-            unit ? unit : "-", none, cells[1]);
+    fprintf(page->out, "  %-20s %s%s%s%s%s; %s%s; %s\n", key, cells[0], *range ? " " : "", range, has_unit ? " " : "",
+            has_unit ? unit : "", fallback ? "default " : "", given, cells[1]);
 }
 
 static const char *type_name(const struct param *p)
@@ -123,8 +124,8 @@ static void print_rows(const struct page *page, const char *path, const struct c
   for (int i = 0; choice->row(i, &row); i++) {
     char heading[320], meaning[200];
     snprintf(heading, sizeof heading, "%s, %s \"%s\"", path, choice->key, row.name);
-    snprintf(meaning, sizeof meaning, row.source ? "from docs/theory.md or docs/references.md: %s" : "%s",
-             row.source ? row.source : "beside the keys above");
+    snprintf(meaning, sizeof meaning, "beside the keys above%s%s%s%s", row.source ? "; " : "",
+             row.source ? choice->document : "", row.source ? ": " : "", row.source ? row.source : "");
     if (!row.params || !row.params->name) continue;
     print_heading(page, heading, meaning);
     print_table(page, row.params, choice->given);

@@ -84,7 +84,8 @@ static const struct param material_params[] = {
      "diameter of a grain; 0: not given"},
     PARAM_END};
 static const struct choice model_choice = {
-    "model", NULL, "skeleton law", constitutive_row, AT(material, model), AT(material, model_params), NULL};
+    "model",          NULL, "skeleton law", constitutive_row, AT(material, model), AT(material, model_params),
+    "docs/theory.md", NULL};
 static const struct section material_section = {
     .meaning = "material", .size = sizeof(struct material), .params = material_params, .choice = &model_choice};
 
@@ -99,12 +100,12 @@ static const struct section solid_section = {
 
 /* ---- fluid ---- */
 
-static const char *const   eos_given[] = {"reference_density", "density", "bulk_modulus", "bulk_modulus", NULL};
-static const struct choice eos_choice = {
-    "law", "linear_water", "equation of state", eos_row, AT(fluid, eos), AT(fluid, eos_params), eos_given};
+static const char *const    eos_given[] = {"reference_density", "density", "bulk_modulus", "bulk_modulus", NULL};
+static const struct choice  eos_choice = {"law",          "linear_water",        "equation of state", eos_row,
+                                          AT(fluid, eos), AT(fluid, eos_params), "docs/theory.md",    eos_given};
 static const struct section eos_section = {.meaning = "equation of state", .choice = &eos_choice, .word = true};
-static const struct choice drag_choice = {"law", "darcy", "drag law", drag_row, AT(fluid, drag), AT(fluid, drag_params),
-                                          NULL};
+static const struct choice  drag_choice = {
+     "law", "darcy", "drag law", drag_row, AT(fluid, drag), AT(fluid, drag_params), "docs/theory.md", NULL};
 static const struct section drag_section = {
     .meaning = "drag between the fluid and a skeleton", .choice = &drag_choice, .word = true};
 
@@ -215,8 +216,8 @@ static bool gauge_row(int i, struct row *row)
   return found;
 }
 
-static const struct choice  gauge_choice = {"kind", NULL, "kind of gauge: " GAUGE_WORDS, gauge_row, AT(gauge, kind),
-                                            0,      NULL};
+static const struct choice  gauge_choice = {"kind", NULL, "kind of gauge: " GAUGE_WORDS, gauge_row, AT(gauge, kind), 0,
+                                            NULL,   NULL};
 static const struct entry   gauge_entries[] = {{"region", ENTRY_VALUE, &value_shape, NULL, AT(gauge, region), 0,
                                                 "everywhere", NULL, "integral|mean", "-", "region that is summed over",
                                                 false},
@@ -228,8 +229,14 @@ static const struct section gauge_section = {.meaning = "number sampled over tim
 
 /* ---- references and metrics ---- */
 
-static const struct choice reference_choice = {
-    "kind", NULL, "reference", reference_row, AT(reference_use, reference), AT(reference_use, params), NULL};
+static const struct choice  reference_choice = {"kind",
+                                                NULL,
+                                                "reference",
+                                                reference_row,
+                                                AT(reference_use, reference),
+                                                AT(reference_use, params),
+                                                "docs/references.md",
+                                                NULL};
 static const struct section reference_section = {
     .meaning = "exact solution to compare with; a number may be \"=key.path\", what stands there",
     .size = sizeof(struct reference_use),

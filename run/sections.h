@@ -45,6 +45,7 @@ struct choice {
   bool (*row)(int i, struct row *row); /* false: past the last */
   size_t             law;              /* offset of the const pointer to the law, or of the int index of the kind */
   size_t             params;           /* offset of the void * to its parameters; of a kind: unused */
+  const char        *document;         /* where the rows' sources are found; NULL: they have none */
   const char *const *given;            /* parameter, key of the parent, ..., NULL: taken from the parent section */
 };
 
