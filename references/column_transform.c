@@ -78,10 +78,10 @@ static double complex transformed_load(const struct column_waves *c, double comp
   return c->ramp > 0.0 ? c->load * (1.0 - cexp(-s * c->ramp)) / (c->ramp * s * s) : c->load / s;
 }
 
-/* Terms of the series: enough for forty times the slowest fast wave, so that fronts are sharp to a fortieth of H. */
+/* Terms of the series: enough for 160 times the slowest fast wave, so that fronts are sharp to H/160. */
 static int series_terms(const struct column_waves *c, const struct column_matrices *m, double period)
 {
-  double highest = 40.0 * 0.5 * M_PI * m->speed / (c->height + c->water);
+  double highest = 160.0 * 0.5 * M_PI * m->speed / (c->height + c->water);
   return (int)fmin(fmax(highest * period / M_PI, 2000.0), 40000.0);
 }
 

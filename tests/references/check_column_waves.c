@@ -66,17 +66,17 @@ START_TEST(floors_of_a_bare_column)
 }
 END_TEST
 
-/* Grains of 1 mm: 8.5, 5.6, 0.7, 0.03, 0.09 % bare; 25, 6.4, 2.2, 0.04, 0.09 % under 0.3 m of water. The finite
- * differences below decide between 6.4 and the 6.3 that both solutions here give. */
+/* Grains of 1 mm: 8.5, 5.6, 0.7, 0.03, 0.09 % bare; 25, 6.4, 2.2, 0.04, 0.09 % under 0.3 m of water. Half a unit of the
+ * last digit, but for 6.4: the solution here says 6.29, and so do differences in space and time, see below. */
 START_TEST(floors_under_water)
 {
-  static const double wanted[2][5] = {{8.5, 5.6, 0.7, 0.03, 0.09}, {24.6, 6.27, 2.16, 0.035, 0.095}};
-  static const double digits[5] = {0.06, 0.06, 0.05, 0.006, 0.006};
+  static const double wanted[2][5] = {{8.5, 5.6, 0.7, 0.03, 0.09}, {25, 6.4, 2.2, 0.04, 0.09}};
+  static const double digits[2][5] = {{0.05, 0.05, 0.05, 0.0051, 0.0051}, {0.5, 0.16, 0.05, 0.0051, 0.0051}};
   for (int layer = 0; layer < 2; layer++) {
     void *w = kozeny_column(waves(), 1e-3, layer * 0.3), *q = kozeny_column(terzaghi(), 1e-3, 0);
     for (int i = 0; i < 5; i++) {
       double t = times[i] * waves()->time_scale(w);
-      CLOSE(rms_between(waves(), w, terzaghi(), q, "P", 100, 1.0, t) / 100, wanted[layer][i], digits[i]);
+      CLOSE(rms_between(waves(), w, terzaghi(), q, "P", 100, 1.0, t) / 100, wanted[layer][i], digits[layer][i]);
     }
     free(w), free(q);
   }
@@ -184,7 +184,7 @@ START_TEST(differences_agree)
     void              *prm = terzaghi_column(waves());
     struct differences d = fresh(1e-3, 2.2e9, 1000, 0, 1e-3);
     set(waves(), prm, "ramp", 1e-3);
-    CLOSE(compare(&d, prm, t[i]), 0, 10.0);
+    CLOSE(compare(&d, prm, t[i]), 0, 15.0);
     free(prm);
   }
 }
@@ -197,9 +197,26 @@ START_TEST(differences_agree_under_water)
     void              *prm = kozeny_column(waves(), 1e-3, 0.3);
     struct differences d = fresh(2.997061e-3, 2e9, 998, LAYER, 1e-3);
     set(waves(), prm, "ramp", 1e-3);
-    CLOSE(compare(&d, prm, t[i]), 0, 20.0);
+    CLOSE(compare(&d, prm, t[i]), 0, 15.0);
     free(prm);
   }
+}
+END_TEST
+
+/* The step load that grains of 1 mm and water above turn into 6.3 % at T_v 0.1: by differences. They
+ * read 6.34, 6.32, 6.30 % with 250, 500, 1000 cells here. */
+START_TEST(differences_see_the_same_floor)
+{
+  void              *w = kozeny_column(waves(), 1e-3, 0.3), *q = kozeny_column(terzaghi(), 1e-3, 0);
+  struct differences d = fresh(2.997061e-3, 2e9, 998, LAYER, 1e-9);
+  double             t = 0.1 * waves()->time_scale(w), squares = 0;
+  compare(&d, w, t);
+  for (int i = 0; i < N; i++) {
+    double off = d.P[i] - value_at(terzaghi(), q, "P", 0, (i + 0.5) * d.h, t);
+    squares += off * off / N;
+  }
+  CLOSE(sqrt(squares) / 100, rms_between(waves(), w, terzaghi(), q, "P", 100, 1.0, t) / 100, 0.08);
+  free(w), free(q);
 }
 END_TEST
 
@@ -232,4 +249,4 @@ START_TEST(tight_column)
 END_TEST
 
 RUN_TESTS("column_waves", first_fast_mode, floors_of_a_bare_column, floors_under_water, modes_are_transforms,
-          differences_agree, differences_agree_under_water, water_above, tight_column)
+          differences_agree, differences_agree_under_water, differences_see_the_same_floor, water_above, tight_column)
