@@ -8,11 +8,11 @@ struct isotropic {
   double young, poisson; /* Pa, - */
 };
 
-/* rows of a law's parameter table; `type` starts with the members young and poisson */
-#define ISOTROPIC_PARAMS(type)                                                                                         \
+/* rows of a law's parameter table; `type` starts with the members young and poisson; `least` is the smallest poisson */
+#define ISOTROPIC_PARAMS(type, least)                                                                                  \
   {"young", PARAM_NUMBER, offsetof(type, young), "Pa", 1e-6, 1e15, NULL, NULL, "Young's modulus of the skeleton"},     \
   {                                                                                                                    \
-    "poisson", PARAM_NUMBER, offsetof(type, poisson), "-", -0.99, 0.499, NULL, NULL, "Poisson's ratio of the skeleton" \
+    "poisson", PARAM_NUMBER, offsetof(type, poisson), "-", least, 0.499, NULL, NULL, "Poisson's ratio of the skeleton" \
   }
 
 /** Pa: Lame's first constant. */

@@ -3,7 +3,7 @@
 #include "constitutive/corotate.h"
 #include "constitutive/isotropic.h"
 
-static const struct param params[] = {ISOTROPIC_PARAMS(struct isotropic), PARAM_END};
+static const struct param params[] = {ISOTROPIC_PARAMS(struct isotropic, -0.99), PARAM_END};
 
 static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
                   double *work)

@@ -3,7 +3,8 @@
 #include "constitutive/isotropic.h"
 #include "core/tensor.h"
 
-static const struct param params[] = {ISOTROPIC_PARAMS(struct isotropic), PARAM_END};
+/* With lambda < 0 the energy is not convex in J: such a body would collapse. */
+static const struct param params[] = {ISOTROPIC_PARAMS(struct isotropic, 0.0), PARAM_END};
 
 /* Differences from I keep the digits of small strains. */
 struct deformation {
@@ -27,23 +28,12 @@ static inline void measure(const double F[9], struct deformation *d)
   d->log_J = volume > -1.0 ? log1p(volume) : NAN;
 }
 
-/* Pa: bound of the acoustic tensor's eigenvalues: longitudinal lambda' + 2 mu' or shear mu', plus the largest stress */
-static inline double tangent(double lambda, double mu, const struct deformation *d)
-{
-  double        l = lambda / d->J, m = (mu - lambda * d->log_J) / d->J;
-  const double *b = d->b;
-  double        size =
-      sqrt(b[XX] * b[XX] + b[YY] * b[YY] + b[ZZ] * b[ZZ] + 2.0 * (b[XY] * b[XY] + b[YZ] * b[YZ] + b[XZ] * b[XZ]));
-  return fmax(l + 2.0 * m, m) + (lambda * d->log_J + mu * size) / d->J;
-}
-
-/* history: Pa, tangent modulus, which the wave speed needs and the stress alone does not tell */
 static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
                   double *work)
 {
   double lambda = isotropic_lambda(prm), mu = isotropic_shear(prm);
   int    bad = 0;
-  (void)dt, (void)dF;
+  (void)dt, (void)dF, (void)history;
   if (work) memset(work, 0, (size_t)n * sizeof *work);
   for (int p = 0; p < n; p++) {
     struct deformation d;
@@ -54,17 +44,44 @@ static int update(const void *prm, int n, double dt, const double *dF, const dou
     }
     double pressure = lambda * d.log_J / d.J, shear = mu / d.J;
     for (int k = 0; k < 6; k++) stress[6L * p + k] = shear * d.b[k] + (k < 3 ? pressure : 0.0);
-    history[p] = tangent(lambda, mu, &d);
   }
   return bad;
 }
 
+/* ln of the smallest J that a smallest principal stress s allows: b_3 <= J^(2/3), so s <= (lambda ln J + mu (J^(2/3) -
+ * 1))/J, which grows with J below 1. With y = ln J the root of a convex, growing function: Newton from y = 0. */
+static double smallest_log_J(double lambda, double mu, double s)
+{
+  enum { STEPS = 50 };
+  double y = 0.0;
+  if (s >= 0.0) return 0.0;
+  for (int i = 0; i < STEPS; i++) {
+    double two_thirds = mu * exp(2.0 / 3.0 * y), pull = s * exp(y);
+    double change = (lambda * y + two_thirds - mu - pull) / (lambda + 2.0 / 3.0 * two_thirds - pull);
+    y -= change;
+    if (!(change > 1e-12)) break;
+  }
+  return y;
+}
+
+/* The acoustic tensor's largest eigenvalue, (lambda + 2 mu - 2 lambda ln J)/J + s_1, falls with J; the stress bounds J.
+ */
 static double wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history)
 {
-  double rest = isotropic_oedometer(prm), largest = 0.0;
-  (void)stress;
-  for (int p = 0; p < n; p++) largest = fmax(largest, (history[p] > 0.0 ? history[p] : rest) / rb[p]);
-  return sqrt(largest);
+  double lambda = isotropic_lambda(prm), mu = isotropic_shear(prm), highest = -INFINITY, lowest = INFINITY,
+         lightest = INFINITY;
+  (void)history;
+  for (int p = 0; p < n; p++) {
+    const double *s = &stress[6L * p];
+    double        a = s[XX] - s[YY], b = s[YY] - s[ZZ], c = s[ZZ] - s[XX], mean = (s[XX] + s[YY] + s[ZZ]) / 3.0;
+    double        dev = (a * a + b * b + c * c) / 3.0 + 2.0 * (s[XY] * s[XY] + s[YZ] * s[YZ] + s[XZ] * s[XZ]);
+    double        spread = sqrt(2.0 / 3.0 * dev); /* no principal stress is farther from the mean */
+    highest = fmax(highest, mean + spread);
+    lowest = fmin(lowest, mean - spread);
+    lightest = fmin(lightest, rb[p]);
+  }
+  double log_J = smallest_log_J(lambda, mu, lowest);
+  return sqrt(fmax(0.0, (lambda + 2.0 * mu - 2.0 * lambda * log_J) * exp(-log_J) + highest) / lightest);
 }
 
 static void energy(const void *prm, int n, const double *F, const double *stress, double *energy)
@@ -84,7 +101,6 @@ const struct constitutive_model constitutive_neo_hookean = {
     .source = "1, Skeleton models",
     .params = params,
     .param_size = sizeof(struct isotropic),
-    .n_history = 1,
     .update = update,
     .wave_speed = wave_speed,
     .energy = energy,
