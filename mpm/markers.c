@@ -18,18 +18,41 @@ static void marker_force(const struct sim *sim, const struct mpm *m, const struc
  * velocity is not the solid's */
 static const double light_node = 1e-3;
 
-/* nodes of a marker and its weights over those that hold enough of the solid; their sum is one */
+/* centre and spread of the weights along an axis; dx [n]: distances of the nodes from that centre */
+static double axis_spread(const struct grid *g, const long *node, const double *w, int n, int axis, double *centre, double *dx)
+{
+  double spread = 0, x[3];
+  *centre = 0;
+  for (int q = 0; q < n; q++) {
+    grid_node(g, node[q], x);
+    dx[q] = x[axis];
+    *centre += w[q] * x[axis];
+  }
+  for (int q = 0; q < n; q++) {
+    dx[q] -= *centre;
+    spread += w[q] * dx[q] * dx[q];
+  }
+  return spread;
+}
+
+/* Nodes of a marker and its weights over those that hold enough of the solid. Their sum stays one and their centre at the
+ * marker: beyond a free surface nodes are missing, and without the second a load would act too deep, a velocity be too low. */
 static void marker_weights(const struct sim *sim, const struct mpm *m, long i, long *node, double *w)
 {
-  m->kernels->weights(&m->kernel_grid, m->x_m + i * sim->grid.dim, node, w, NULL);
-  double heaviest = 0, kept = 0;
-  int    n = m->kernels->n_support;
+  const double *x = m->x_m + i * sim->grid.dim;
+  int           n = m->kernels->n_support;
+  double        heaviest = 0, kept = 0, share[MAX_SUPPORT], dx[MAX_SUPPORT], h2 = sim->grid.h * sim->grid.h;
+  m->kernels->weights(&m->kernel_grid, x, node, w, NULL);
   for (int q = 0; q < n; q++) heaviest = fmax(heaviest, m->mass_nc[node[q]]);
   for (int q = 0; q < n; q++) {
     if (m->mass_nc[node[q]] <= light_node * heaviest) w[q] = 0;
     kept += w[q];
   }
-  for (int q = 0; q < n && kept > 0; q++) w[q] /= kept;
+  for (int q = 0; q < n; q++) share[q] = w[q] = kept > 0 ? w[q] / kept : 0;
+  for (int axis = 0; axis < sim->grid.dim; axis++) {
+    double centre, spread = axis_spread(&sim->grid, node, share, n, axis, &centre, dx);
+    for (int q = 0; q < n && spread > 0.01 * h2; q++) w[q] += share[q] * dx[q] * (x[axis] - centre) / spread;
+  }
 }
 
 /* velocity of the solid at a marker */

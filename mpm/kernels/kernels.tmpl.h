@@ -24,7 +24,7 @@ enum { TILE = EDGE * EDGE * EDGE_Z };
 
 struct tile {
   double record[TILE][LANES];
-  int    first[3];
+  int    first[3], count[3]; /* lower node; nodes in use: a block at the border of the grid needs fewer */
 };
 
 /* first node, weights, derivatives (1/m) and distances (m) to the nodes along every axis */
@@ -72,9 +72,17 @@ static inline void stencil_at(const struct kernel_grid *kg, const double *x, str
 #endif
 }
 
-static inline void tile_place(struct tile *t, const struct kernel_run *run)
+/* nodes that points of the block can reach, all of them in the grid's ghosts at most; their records are emptied */
+static inline void tile_open(struct tile *t, const struct kernel_grid *kg, const struct kernel_run *run)
 {
-  for (int a = 0; a < 3; a++) t->first[a] = a < DIM ? run->corner[a] - BLOCK_MARGIN - 1 : 0;
+  for (int a = 0; a < 3; a++) {
+    t->first[a] = a < DIM ? run->corner[a] - BLOCK_MARGIN - 1 : 0;
+    int last = kg->g.n[a] + 2 - t->first[a];
+    t->count[a] = a >= DIM ? 1 : last + 1 < EDGE ? last + 1 : EDGE;
+  }
+  for (int k = 0; k < t->count[2]; k++)
+    for (int j = 0; j < t->count[1]; j++)
+      memset(t->record[((long)k * EDGE + j) * EDGE], 0, (size_t)t->count[0] * sizeof *t->record);
 }
 
 static inline long tile_index(const struct tile *t, int i, int j, int k)
@@ -82,23 +90,13 @@ static inline long tile_index(const struct tile *t, int i, int j, int k)
   return ((long)(k - t->first[2]) * EDGE + j - t->first[1]) * EDGE + i - t->first[0];
 }
 
-/* for every node of the tile that exists in the grid: node = its index, r = its record */
+/* for every node of the tile: node = its index in the grid, r = its record */
 #define FOR_TILE(t, g, node, r)                                                                                        \
-  for (int k_ = 0; k_ < EDGE_Z; k_++)                                                                                  \
-    for (int j_ = 0; j_ < EDGE; j_++)                                                                                  \
-      for (int i_ = 0; i_ < EDGE; i_++)                                                                                \
-        if (tile_inside(t, g, i_, j_, k_))                                                                             \
-          for (long r = ((long)k_ * EDGE + j_) * EDGE + i_, one_ = 1,                                                  \
-                    node = grid_at(g, (t)->first[0] + i_, (t)->first[1] + j_, (t)->first[2] + k_);                     \
-               one_; one_ = 0)
-
-static inline bool tile_inside(const struct tile *t, const struct grid *g, int i, int j, int k)
-{
-  int q[3] = {t->first[0] + i, t->first[1] + j, t->first[2] + k};
-  for (int a = 0; a < DIM; a++)
-    if (q[a] < -GHOST || q[a] > g->n[a] + GHOST) return false;
-  return true;
-}
+  for (int k_ = 0; k_ < (t)->count[2]; k_++)                                                                           \
+    for (int j_ = 0; j_ < (t)->count[1]; j_++)                                                                         \
+      for (long r = ((long)k_ * EDGE + j_) * EDGE, end_ = r + (t)->count[0],                                           \
+                node = grid_at(g, (t)->first[0], (t)->first[1] + j_, (t)->first[2] + k_);                              \
+           r < end_; r++, node++)
 
 /* adds one point: A0 [LANES], A [DIM][LANES], G [DIM][LANES] */
 static inline void tile_add(struct tile *t, const struct stencil *s, const double *A0, double A[DIM][LANES], double G[DIM][LANES])
@@ -189,8 +187,7 @@ static void p2g(const struct kernel_grid *kg, const struct kernel_run *run, cons
   struct tile    t;
   struct stencil s;
   double         A0[LANES] = {0}, A[DIM][LANES] = {{0}}, G[DIM][LANES] = {{0}};
-  memset(t.record, 0, sizeof t.record);
-  tile_place(&t, run);
+  tile_open(&t, kg, run);
   for (long p = run->begin; p < run->end; p++) {
     stencil_at(kg, a->x + p * DIM, &s);
     p2g_record(a, p, A0, A, G);
@@ -244,8 +241,7 @@ static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args
 static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, const struct g2p_args *a)
 {
   struct tile t;
-  memset(t.record, 0, sizeof t.record);
-  tile_place(&t, run);
+  tile_open(&t, kg, run);
   FOR_TILE(&t, &kg->g, node, r)
   for (int d = 0; d < DIM; d++) {
     t.record[r][d] = a->vel_nc[node * DIM + d];
@@ -259,8 +255,7 @@ static void scatter(const struct kernel_grid *kg, const struct kernel_run *run, 
   struct tile    t;
   struct stencil s;
   double         A0[LANES] = {0}, A[DIM][LANES] = {{0}}, G[DIM][LANES] = {{0}};
-  memset(t.record, 0, sizeof t.record);
-  tile_place(&t, run);
+  tile_open(&t, kg, run);
   for (long p = run->begin; p < run->end; p++) {
     double weight = a->weight ? a->weight[p] : 1;
     stencil_at(kg, a->x + p * DIM, &s);
@@ -280,8 +275,7 @@ static void gather(const struct kernel_grid *kg, const struct kernel_run *run, c
   struct stencil s;
   double         S0[LANES], R[DIM][LANES], D[DIM][LANES];
   long           step = a->gradient_stride ? a->gradient_stride : DIM;
-  memset(t.record, 0, sizeof t.record);
-  tile_place(&t, run);
+  tile_open(&t, kg, run);
   FOR_TILE(&t, &kg->g, node, r)
   for (int q = 0; q < a->n; q++) t.record[r][q] = a->node[q][node * (a->stride[q] ? a->stride[q] : 1)];
   for (long p = run->begin; p < run->end; p++) {
