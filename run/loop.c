@@ -317,7 +317,7 @@ static enum status write_summary(struct run *r, const char *status, bool *missed
   record.limited_by = limited;
   record.left_out = left_out;
   record.n_left_out = r->plan.n_left_out;
-  TRY(metrics_finish(r->metrics, r->gauges, r->loaded, &record.n_metrics, &record.metrics));
+  TRY(metrics_finish(r->metrics, r->gauges, r->loaded, r->t_end, &record.n_metrics, &record.metrics));
   for (int i = 0; i < record.n_metrics; i++) *missed = *missed || (record.metrics[i].has_limit && !record.metrics[i].pass);
   if (!r->options->quiet) summary_print(&record);
   return summary_write(r->folder, &record);

@@ -100,11 +100,11 @@ static enum status compile(const struct sim *sim, const struct metric *metric, s
 /* s that times may differ by and be the same */
 static double tolerance(const struct scene *scene) { return 1e-9 * scene->time_end; }
 
-/* whether the run reaches all that the metric needs */
-static bool in_reach(const struct scene *scene, const struct compiled_metric *m)
+/* whether a run to t_end reaches all that the metric needs */
+static bool in_reach(const struct scene *scene, const struct compiled_metric *m, double t_end)
 {
   bool one_time = *m->metric->field || m->metric->measure == MEASURE_VALUE;
-  return (one_time ? m->at : m->to) <= scene->time_end + tolerance(scene);
+  return (one_time ? m->at : m->to) <= t_end + tolerance(scene);
 }
 
 static void add_time(struct metrics *metrics, double t)
@@ -122,7 +122,8 @@ static void collect_times(struct metrics *metrics)
   for (int i = 0; i < metrics->n; i++) {
     const struct compiled_metric *m = &metrics->m[i];
     bool                          one_time = *m->metric->field || m->metric->measure == MEASURE_VALUE;
-    if (one_time && in_reach(metrics->scene, m)) add_time(metrics, fmin(m->at, metrics->scene->time_end));
+    if (one_time && in_reach(metrics->scene, m, metrics->scene->time_end))
+      add_time(metrics, fmin(m->at, metrics->scene->time_end));
   }
 }
 
@@ -186,7 +187,8 @@ enum status metrics_sample(struct metrics *metrics, const struct sim *sim)
   for (int i = 0; i < metrics->n; i++) {
     struct compiled_metric *m = &metrics->m[i];
     bool                    rough = m->metric->measure == MEASURE_ROUGHNESS;
-    if (!*m->metric->field || !isnan(metrics->values[i]) || !in_reach(metrics->scene, m)) continue;
+    if (!*m->metric->field || !isnan(metrics->values[i]) || !in_reach(metrics->scene, m, metrics->scene->time_end))
+      continue;
     if (sim->t < m->at - tolerance(metrics->scene)) continue;
     TRY(metric_of_field(m, sim, rough ? metrics->difference : NULL, &metrics->values[i],
                         &metrics->values[metrics->n + i]));
@@ -230,11 +232,11 @@ static void judge(struct metrics *metrics, int i, const struct gauges *gauges, c
 }
 
 enum status metrics_finish(struct metrics *metrics, const struct gauges *gauges, const struct loaded_scene *loaded,
-                           int *n, const struct metric_entry **entries)
+                           double t_end, int *n, const struct metric_entry **entries)
 {
   metrics->n_entries = 0;
   for (int i = 0; i < metrics->n; i++) {
-    if (!in_reach(metrics->scene, &metrics->m[i])) continue;
+    if (!in_reach(metrics->scene, &metrics->m[i], t_end)) continue;
     if (*metrics->m[i].metric->gauge) TRY(measure_gauge(metrics, i, gauges));
     judge(metrics, i, gauges, loaded);
   }

@@ -20,10 +20,10 @@ enum status metrics_sample(struct metrics *metrics, const struct sim *sim) MUST_
 /** Results so far, one per metric of the scene, NaN before their time: part of a checkpoint. */
 double *metrics_values(struct metrics *metrics, int *n);
 /** Evaluates the metrics of gauges and judges all by the limits of `loaded` (NULL: no limits). Entries [n] live as long
- *  as `metrics`; a metric whose time lies after the end of the run is left out. RMS and maxima are divided by
- *  the scale, single numbers (value, mean, frequency, decay) are the signed difference over the scale, by default over
- *  what was expected. A limit holds for the magnitude. */
+ *  as `metrics`; a metric whose time lies after t_end, where this run was to end, is left out. RMS and maxima are
+ * divided by the scale, single numbers (value, mean, frequency, decay) are the signed difference over the scale, by
+ * default over what was expected. A limit holds for the magnitude. */
 enum status metrics_finish(struct metrics *metrics, const struct gauges *gauges, const struct loaded_scene *loaded,
-                           int *n, const struct metric_entry **entries) MUST_CHECK;
+                           double t_end, int *n, const struct metric_entry **entries) MUST_CHECK;
 
 #endif

@@ -68,7 +68,7 @@ static int evaluate(struct fake_run *r, int n_times, const double *times, void (
     ck_assert_int_eq(memory_calls(), calls);
     fake_ok(gauges_sample(gauges, &r->sim));
   }
-  fake_ok(metrics_finish(metrics, gauges, loaded, &n, &entries));
+  fake_ok(metrics_finish(metrics, gauges, loaded, times[n_times - 1], &n, &entries));
   for (int i = 0; i < n; i++) results[i] = entries[i];
   for (int i = 0; i < n; i++) results[i].name = results[i].unit = NULL; /* they die with the metrics */
   metrics_destroy(&metrics);
@@ -262,6 +262,24 @@ START_TEST(references_give_scale_and_time)
 }
 END_TEST
 
+/* A run that was to end early is judged by what it could reach. */
+START_TEST(an_early_end)
+{
+  struct fake_run     r;
+  struct gauge        gauge = ledger_gauge("line", "elastic");
+  struct metric       m[3] = {metric_of("now", MEASURE_VALUE, "", "line"), metric_of("end", MEASURE_VALUE, "", "line"),
+                              metric_of("field", MEASURE_MEAN, "P", "")};
+  struct metric_entry e[3];
+  const double        times[2] = {0, 0.5};
+  fake_create(2, &r);
+  m[0].at = 0.5;
+  r.scene.gauges = &gauge, r.scene.n_gauges = 1, r.scene.metrics = m, r.scene.n_metrics = 3;
+  ck_assert_int_eq(evaluate(&r, 2, times, oscillate, NULL, e), 1);
+  ck_assert_double_eq_tol(e[0].value, 5.5, 1e-12);
+  fake_destroy(&r);
+}
+END_TEST
+
 /* Limits hold for magnitudes; what cannot be measured is missed. */
 START_TEST(judgement)
 {
@@ -352,6 +370,7 @@ int main(void)
   tcase_add_test(tests, roughness);
   tcase_add_test(tests, gauges_over_time);
   tcase_add_test(tests, references_give_scale_and_time);
+  tcase_add_test(tests, an_early_end);
   tcase_add_test(tests, judgement);
   tcase_add_test(tests, times_and_resume);
   tcase_add_test(tests, wrong_metrics);
