@@ -33,8 +33,7 @@ static void position(const struct grid *g, long index, double shift, int axis, d
 {
   int place[3];
   grid_place(g, index, place);
-  for (int d = 0; d < 3; d++)
-    x[d] = d < g->dim ? g->min[d] + (place[d] + (d == axis ? axis_shift : shift)) * g->h : 0;
+  for (int d = 0; d < 3; d++) x[d] = d < g->dim ? g->min[d] + (place[d] + (d == axis ? axis_shift : shift)) * g->h : 0;
 }
 
 void grid_centre(const struct grid *g, long cell, double x[3]) { position(g, cell, 0.5, -1, 0, x); }
@@ -43,10 +42,7 @@ void grid_face(const struct grid *g, long face, int axis, double x[3]) { positio
 
 double grid_cell_volume(const struct grid *g) { return g->dim == 3 ? g->h * g->h * g->h : g->h * g->h; }
 
-struct box grid_cells(const struct grid *g)
-{
-  return (struct box){{0, 0, 0}, {g->n[0], g->n[1], g->n[2]}};
-}
+struct box grid_cells(const struct grid *g) { return (struct box){{0, 0, 0}, {g->n[0], g->n[1], g->n[2]}}; }
 
 struct box grid_nodes(const struct grid *g)
 {

@@ -55,8 +55,8 @@ static inline long box_row(const struct grid *g, const struct box *b, long row)
 }
 static inline int box_length(const struct box *b) { return b->hi[0] - b->lo[0]; }
 
-/** Offsets from a face with normal `axis` to its nodes, offset [4]; returns how many: 2^(dim-1). The faces with that normal
- *  around a node lie at the negative offsets. axis = -1: from a cell to its nodes, offset [8]. */
+/** Offsets from a face with normal `axis` to its nodes, offset [4]; returns how many: 2^(dim-1). The faces with that
+ * normal around a node lie at the negative offsets. axis = -1: from a cell to its nodes, offset [8]. */
 int grid_node_offsets(const struct grid *g, int axis, long *offset);
 
 /** Copies owned values of a cell field with n components per cell into the ghosts of periodic axes. */

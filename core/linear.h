@@ -22,12 +22,17 @@ struct linear_report {
 enum status linear_create(const struct grid *g, enum linear_method method, struct linear **linear) MUST_CHECK;
 void        linear_destroy(struct linear **linear);
 
-/** Solves A x = b from the guess x = 0 until max |b - A x| <= tolerance.
- *  diagonal [size]; coupling [dim][size]: entry between a cell and its lower neighbour along an axis, at their face, <=
- * 0; b, x [size]. singular: constants are in the null space; b is projected and x gets mean zero over cells with active
- * [size] != 0. ERR_SOLVER: tolerance not reached. */
-enum status linear_solve(struct linear *linear, const double *diagonal, const double *coupling, bool singular,
-                         const double *active, double tolerance, double *b, double *x,
+/** The matrix of the next solves. diagonal [size]; coupling [dim][size]: entry between a cell and its lower neighbour
+ * along an axis, at their face, <= 0; both are borrowed until the next call. singular: constants are in the null space
+ * over the cells with active [size] != 0 (borrowed too): right-hand sides are projected, solutions get mean zero there.
+ */
+void linear_set_matrix(struct linear *linear, const double *diagonal, const double *coupling, bool singular,
+                       const double *active);
+
+/** Solves A x = b from the guess x = 0 until max |b - A x| <= tolerance; b, x [size]. The first solve of a matrix sets
+ * it up. A tolerance that was not reached shows in report->residual. ERR_SOLVER: the matrix is not positive definite.
+ */
+enum status linear_solve(struct linear *linear, double tolerance, double *b, double *x,
                          struct linear_report *report) MUST_CHECK;
 
 #endif

@@ -10,7 +10,7 @@
 
 struct solver_report {
   long   solves, iterations, fallbacks;
-  double residual_max;
+  double residual_max; /* volume that the pressure solve left in a step, over a cell's volume */
 };
 
 struct sim {

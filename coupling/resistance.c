@@ -3,15 +3,17 @@
 
 #include <math.h>
 
-static const double reference_gravity = 9.81; /* hydraulic conductivities are quoted with it, whatever gravity the scene has */
+static const double reference_gravity =
+    9.81; /* hydraulic conductivities are quoted with it, whatever gravity the scene has */
 
 double coupling_permeability(const struct scene *scene, const struct material *material)
 {
   return material->permeability * scene->fluid.viscosity / (scene->fluid.density * reference_gravity);
 }
 
-void coupling_drag(const struct scene *scene, int n, const double *porosity, const double *fill, const double *medium_porosity,
-                   const double *slip, const double *permeability, const double *diameter, double *K)
+void coupling_drag(const struct scene *scene, int n, const double *porosity, const double *fill,
+                   const double *medium_porosity, const double *slip, const double *permeability,
+                   const double *diameter, double *K)
 {
   double             inside[DRAG_BATCH];
   struct drag_medium medium = {.porosity = medium_porosity,

@@ -14,10 +14,8 @@ static void clear(const struct grid *g, double *field) { memset(field, 0, (size_
 static void gather_volumes(struct sim *sim, struct coupling *c)
 {
   const struct mpm   *m = mpm_of(sim);
-  struct scatter_args args = {.n = 2,
-                              .x = m->x_p,
-                              .value = {m->volume_solid_p, m->volume_p},
-                              .node = {c->solid_nc, c->bulk_nc}};
+  struct scatter_args args = {
+      .n = 2, .x = m->x_p, .value = {m->volume_solid_p, m->volume_p}, .node = {c->solid_nc, c->bulk_nc}};
   clear(&sim->grid, c->solid_nc);
   clear(&sim->grid, c->bulk_nc);
   FOR_RUNS(m->points, &sim->grid, run, group) m->kernels->scatter(&m->kernel_grid, &run, &args);
@@ -47,7 +45,8 @@ enum status coupling_gather_media(struct sim *sim, double dt)
   {
     const struct material *material = &sim->scene->materials[group];
     double                 kappa = coupling_permeability(sim->scene, material), D = material->grain_diameter;
-    struct scatter_args    args = {.n = 2, .x = m->x_p, .weight = m->volume_p, .node = {c->conductance_nc, c->fineness_nc}};
+    struct scatter_args    args = {
+           .n = 2, .x = m->x_p, .weight = m->volume_p, .node = {c->conductance_nc, c->fineness_nc}};
     args.factor[0] = kappa > 0 ? 1 / kappa : DBL_MIN;
     args.factor[1] = D > 0 ? 1 / (D * D) : DBL_MIN;
     m->kernels->scatter(&m->kernel_grid, &run, &args);
@@ -68,9 +67,9 @@ static inline double node_mean(const double *q, long at, int n, const long *offs
 /* below this a node holds nothing worth a division */
 static const double least_filled = 1e-9;
 
-/* Grains and skeleton per *filled* room: where soil and water end together at a surface, half of the node's room is void and
- * belongs to neither. Over the whole room the pore water would weigh too much there (1 % of the load is lost per cell of
- * the column). On a periodic axis the last plane copies the first. */
+/* Grains and skeleton per *filled* room: where soil and water end together at a surface, half of the node's room is
+ * void and belongs to neither. Over the whole room the pore water would weigh too much there (1 % of the load is lost
+ * per cell of the column). On a periodic axis the last plane copies the first. */
 static void node_fractions(struct sim *sim, struct coupling *c)
 {
   const struct mpm  *m = mpm_of(sim);
@@ -78,7 +77,8 @@ static void node_fractions(struct sim *sim, struct coupling *c)
   struct box         nodes = grid_nodes(g);
   FOR_BOX(g, nodes, n)
   {
-    double skeleton = c->bulk_nc[n] / c->room_nc[n], filled = fmax(least_filled, fmin(1, fmax(skeleton, c->fluid_fill_nc[n])));
+    double skeleton = c->bulk_nc[n] / c->room_nc[n],
+           filled = fmax(least_filled, fmin(1, fmax(skeleton, c->fluid_fill_nc[n])));
     c->grains_share_nc[n] = c->solid_nc[n] / (c->room_nc[n] * filled);
     c->fill_nc[n] = skeleton / filled;
   }
@@ -99,14 +99,16 @@ static void cell_fractions(struct sim *sim, struct coupling *c)
   grid_fill_periodic(g, 1, c->porosity_cc);
 }
 
-/* the medium's own porosity is grains over skeleton: a half-filled face has half the resistance, not that of a loose soil */
+/* the medium's own porosity is grains over skeleton: a half-filled face has half the resistance, not that of a loose
+ * soil */
 static void face_fractions(struct sim *sim, struct coupling *c, int axis)
 {
   const struct grid *g = &sim->grid;
   struct box         faces = grid_faces(g, axis);
   long               offset[8];
   int                n = grid_node_offsets(g, axis, offset);
-  double            *porosity = c->porosity_fc + axis * g->size, *fill = c->fill_fc + axis * g->size, *medium = c->medium_porosity_fc + axis * g->size;
+  double            *porosity = c->porosity_fc + axis * g->size, *fill = c->fill_fc + axis * g->size,
+         *medium = c->medium_porosity_fc + axis * g->size;
   FOR_BOX(g, faces, f)
   {
     double grains = node_mean(c->grains_share_nc, f, n, offset), bulk = node_mean(c->fill_nc, f, n, offset);

@@ -19,7 +19,8 @@ static void move_cells(struct sim *sim, struct ice *ice)
       for (int high = 0; high < 2; high++) {
         long f = c + high * g->stride[d], q = d * g->size + f;
         if (ice_face_active(ice->kind[q]))
-          impulse += half * ice->porosity_fc[q] * ice_face_density(ice, f - g->stride[d], f) * (ice->u_fc[q] - ice->u_old_fc[q]);
+          impulse += half * ice->porosity_fc[q] * ice_face_density(ice, f - g->stride[d], f) *
+                     (ice->u_fc[q] - ice->u_old_fc[q]);
       }
       ice->vel_cc[c * g->dim + d] += impulse / ice->mass_cc[c];
     }

@@ -51,7 +51,9 @@ static void fill_cells(struct sim *sim, struct ice *ice)
 
 static enum face_kind side_kind(const struct side_condition *side)
 {
-  return side->kind == SIDE_PRESSURE || side->kind == SIDE_OPEN ? FACE_PRESSURE : side->kind == SIDE_VELOCITY ? FACE_INLET : FACE_CLOSED;
+  return side->kind == SIDE_PRESSURE || side->kind == SIDE_OPEN ? FACE_PRESSURE
+         : side->kind == SIDE_VELOCITY                          ? FACE_INLET
+                                                                : FACE_CLOSED;
 }
 
 static enum face_kind classify(const struct sim *sim, const struct ice *ice, int axis, long f)
@@ -60,7 +62,8 @@ static enum face_kind classify(const struct sim *sim, const struct ice *ice, int
   int                place[3], wet = (ice->wet_cc[f] > 0) + (ice->wet_cc[f - g->stride[axis]] > 0);
   grid_place(g, f, place);
   bool low = place[axis] == 0, high = place[axis] == g->n[axis];
-  if ((low || high) && !g->periodic[axis]) return wet ? side_kind(&sim->scene->fluid_side[2 * axis + high]) : FACE_CLOSED;
+  if ((low || high) && !g->periodic[axis])
+    return wet ? side_kind(&sim->scene->fluid_side[2 * axis + high]) : FACE_CLOSED;
   return wet == 2 ? FACE_INNER : wet == 1 ? FACE_SURFACE : FACE_VOID;
 }
 
@@ -81,8 +84,8 @@ static void classify_faces(struct sim *sim, struct ice *ice)
   ice->singular = !fixed && isinf(sim->scene->fluid.bulk_modulus);
 }
 
-/* pressure of a cell whose upper neighbour (against gravity) has `above`, with the face density of the scheme: exactly in
- * balance. The density depends on the pressure a little, hence the iteration */
+/* pressure of a cell whose upper neighbour (against gravity) has `above`, with the face density of the scheme: exactly
+ * in balance. The density depends on the pressure a little, hence the iteration */
 static double pressure_below(const struct sim *sim, double above, double weight)
 {
   double P = above + weight * density_at(sim, above);
@@ -103,7 +106,7 @@ static int gravity_axis(const struct sim *sim, double *g)
 {
   double up[3];
   at_rest_up(sim->scene, up, g);
-  for (int d = 0; d < sim->grid.dim && *g > 0; d++)
+  for (int d = 0; d<sim->grid.dim && * g> 0; d++)
     if (fabs(up[d]) > 1 - 1e-14) return 2 * d + (up[d] < 0);
   return -1;
 }
@@ -183,7 +186,8 @@ static void start_fluxes(struct sim *sim, struct ice *ice)
       long   q = axis * g->size + f, low = f - g->stride[axis];
       double wet = ice->wet_cc[f] + ice->wet_cc[low];
       if (!ice_face_active(ice->kind[q])) continue;
-      double u = (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
+      double u =
+          (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
       ice->water_fc[q] = ice->flux_fc[q] = ice->porosity_fc[q] * u;
     }
   }

@@ -9,7 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* distance to the surface from a cell that is filled to the share `fill`: theory 4.1; a sliver would make the matrix stiff */
+/* distance to the surface from a cell that is filled to the share `fill`: theory 4.1; a sliver would make the matrix
+ * stiff */
 static const double nearest_surface = 0.05, farthest_surface = 1.5;
 
 double ice_face_area(const struct grid *g) { return grid_cell_volume(g) / g->h; }
@@ -29,8 +30,10 @@ double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis,
     double fill = ice->mass_cc[c] / (ice->rho_cc[c] * grid_cell_volume(g)) + 1 - ice->porosity_cc[c];
     return fmin(farthest_surface, fmax(nearest_surface, fill - 0.5));
   }
-  case FACE_PRESSURE: return 0.5;
-  default: return 1;
+  case FACE_PRESSURE:
+    return 0.5;
+  default:
+    return 1;
   }
 }
 
@@ -118,7 +121,8 @@ enum status ice_predict_faces(struct sim *sim, double dt)
       if (!ice_face_active(ice->kind[base + f])) continue;
       long   low = f - g->stride[axis];
       double outside = ice_outside_pressure(sim, ice, axis, f, sim->t + dt);
-      double high_P = ice->wet_cc[f] > 0 ? ice->P_cc[f] : outside, low_P = ice->wet_cc[low] > 0 ? ice->P_cc[low] : outside;
+      double high_P = ice->wet_cc[f] > 0 ? ice->P_cc[f] : outside,
+             low_P = ice->wet_cc[low] > 0 ? ice->P_cc[low] : outside;
       ice->gradP_fc[base + f] = (high_P - low_P) / (ice_face_distance(sim, ice, axis, f) * g->h);
       ice->u_old_fc[base + f] = ice_mean_velocity(sim, ice, axis, f) + ice->params->memory * ice->beyond_fc[base + f];
     }
@@ -154,7 +158,8 @@ static void predict_nodes(struct sim *sim, struct ice *ice, int axis, double dt)
   sim_gravity(sim, sim->t + 0.5 * dt, gravity);
   FOR_BOX(g, nodes, n)
   {
-    double *v = &ice->vel_star_nc[n * dim + axis], push = faces_of_node(kind, gradP, n, around, offset) * c->solid_nc[n];
+    double *v = &ice->vel_star_nc[n * dim + axis],
+           push = faces_of_node(kind, gradP, n, around, offset) * c->solid_nc[n];
     *v = 0;
     if (m->mass_nc[n] > m->mass_floor)
       *v = m->vel_nc[n * dim + axis] + dt * ((m->force_nc[n * dim + axis] - push) / m->mass_nc[n] + gravity[axis]);
@@ -199,7 +204,7 @@ enum status ice_predict_solid(struct sim *sim, double dt)
 double ice_dt_limit(const struct sim *sim)
 {
   const struct ice *ice = ice_of(sim);
-  double            gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
+  double gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
@@ -213,9 +218,10 @@ static void push_nodes(struct sim *sim, struct ice *ice, int axis, double dt)
   const struct grid     *g = &sim->grid;
   struct box             nodes = grid_nodes(g);
   const unsigned char   *kind = ice->kind + axis * g->size;
-  const double          *gradP = ice->gradP_fc + axis * g->size, *s_new = ice->s_fc + axis * g->size, *s_old = ice->s_old_fc + axis * g->size;
-  long                   offset[8];
-  int                    dim = g->dim, around = grid_node_offsets(g, axis, offset);
+  const double          *gradP = ice->gradP_fc + axis * g->size, *s_new = ice->s_fc + axis * g->size,
+               *s_old = ice->s_old_fc + axis * g->size;
+  long offset[8];
+  int  dim = g->dim, around = grid_node_offsets(g, axis, offset);
   FOR_BOX(g, nodes, n)
   {
     double pressure = -dt * faces_of_node(kind, gradP, n, around, offset) * c->solid_nc[n];

@@ -7,17 +7,17 @@
 
 /* what a face is to the fluid */
 enum face_kind {
-  FACE_CLOSED,  /* wall, or outside the grid */
-  FACE_INNER,   /* between two wet cells */
-  FACE_SURFACE, /* between a wet cell and void: P = 0 at the surface */
-  FACE_PRESSURE,/* side of the grid with a given pressure */
-  FACE_INLET,   /* side of the grid with a given velocity */
-  FACE_VOID     /* between two void cells */
+  FACE_CLOSED,   /* wall, or outside the grid */
+  FACE_INNER,    /* between two wet cells */
+  FACE_SURFACE,  /* between a wet cell and void: P = 0 at the surface */
+  FACE_PRESSURE, /* side of the grid with a given pressure */
+  FACE_INLET,    /* side of the grid with a given velocity */
+  FACE_VOID      /* between two void cells */
 };
 
 struct ice_params {
-  double memory;       /* share of what a face had beyond the mean of its cells that it keeps */
-  double defect_share; /* share of the volume defect that is made good per step */
+  double memory;           /* share of what a face had beyond the mean of its cells that it keeps */
+  double defect_share;     /* share of the volume defect that is made good per step */
   double defect_tolerance; /* volume that the defect's solve may leave, over a cell's */
 };
 
@@ -27,12 +27,12 @@ struct ice {
 #undef FIELD
   const struct ice_params *params;
   struct linear           *linear;
-  unsigned char           *kind;        /* [dim][size] enum face_kind */
-  double                  *one;         /* [dim][size] ones: porosity without a skeleton */
+  unsigned char           *kind; /* [dim][size] enum face_kind */
+  double                  *one;  /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
   bool                     skeleton, moves; /* there is a skeleton; it moves */
-  bool                     surface;     /* some face is FACE_SURFACE */
-  bool                     singular;    /* incompressible and closed: pressure up to a constant */
+  bool                     surface;         /* some face is FACE_SURFACE */
+  bool                     singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
     double speed;                  /* m/s, fastest fluid of the last step */
     double mass_out;               /* kg through open sides, net, since the start */
@@ -45,7 +45,10 @@ extern const struct module module_ice;
 static inline struct ice *ice_of(const struct sim *sim) { return sim_state(sim, &module_ice); }
 
 /** Whether fluid at a face answers to a pressure gradient. */
-static inline bool ice_face_active(enum face_kind kind) { return kind == FACE_INNER || kind == FACE_SURFACE || kind == FACE_PRESSURE; }
+static inline bool ice_face_active(enum face_kind kind)
+{
+  return kind == FACE_INNER || kind == FACE_SURFACE || kind == FACE_PRESSURE;
+}
 
 /** Distance between the pressures of a face, in h: 1 between cells, to the surface or the side else. */
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face);
@@ -53,11 +56,12 @@ double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis,
 double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int axis, long face, double t);
 /** h^(dim-1), m2. */
 double ice_face_area(const struct grid *g);
-/** Mean density of the wet cells of a face, which is the harmonic mean of specific volumes M(45): hydrostatics stay exact. */
+/** Mean density of the wet cells of a face, which is the harmonic mean of specific volumes M(45): hydrostatics stay
+ * exact. */
 double ice_face_density(const struct ice *ice, long low, long high);
 
-/** Velocity of the fluid at a face from its wet cells: mean of their momentum over what the face holds, so that a steady
- *  flux through a change of porosity stays what it is. */
+/** Velocity of the fluid at a face from its wet cells: mean of their momentum over what the face holds, so that a
+ * steady flux through a change of porosity stays what it is. */
 double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
 /** Share of every node's room that is wet. */
 enum status ice_mark_extent(struct sim *sim, double dt);

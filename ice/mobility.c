@@ -29,7 +29,8 @@ static double tangential_slip2(const struct sim *sim, const struct ice *ice, int
 }
 
 /* permeability and diameter at a face: of the only medium, or averaged over the skeleton at its nodes */
-static void medium_of_face(const struct coupling *c, long f, int n, const long *offset, double *permeability, double *diameter)
+static void medium_of_face(const struct coupling *c, long f, int n, const long *offset, double *permeability,
+                           double *diameter)
 {
   double bulk = 0, conductance = 0, fineness = 0;
   *permeability = c->permeability;
@@ -58,8 +59,8 @@ static void resist_stretch(const struct sim *sim, struct ice *ice, int axis, lon
     slip[i] = counts ? sqrt(normal * normal + tangential_slip2(sim, ice, axis, f0 + i)) : 0;
     medium_of_face(c, f0 + i, corners, offset, &permeability[i], &diameter[i]);
   }
-  coupling_drag(sim->scene, n, c->porosity_fc + base, c->fill_fc + base, c->medium_porosity_fc + base, slip, permeability, diameter,
-                ice->drag_fc + base);
+  coupling_drag(sim->scene, n, c->porosity_fc + base, c->fill_fc + base, c->medium_porosity_fc + base, slip,
+                permeability, diameter, ice->drag_fc + base);
 }
 
 enum status ice_resist_faces(struct sim *sim, double dt)
@@ -87,7 +88,8 @@ struct face {
 /* closed form for two phases; a = dt K/(n rho), b = dt K/(phi rho_s). Replies: d(u, s) = -dt reply grad dP */
 static void eliminate(const struct face *f, double dt, double *u, double *s, double *u_reply, double *s_reply)
 {
-  double phi = 1 - f->n, a = dt * f->K / (f->n * f->rho), b = f->rho_s > 0 && phi > 0 ? dt * f->K / (phi * f->rho_s) : 0;
+  double phi = 1 - f->n, a = dt * f->K / (f->n * f->rho),
+         b = f->rho_s > 0 && phi > 0 ? dt * f->K / (phi * f->rho_s) : 0;
   double light = f->rho_s > 0 ? 1 / f->rho_s : 0, D = 1 + a + b;
   *u = ((1 + b) * f->u + a * f->s) / D;
   *s = (b * f->u + (1 + a) * f->s) / D;
@@ -122,7 +124,8 @@ static void eliminate_axis(struct sim *sim, struct ice *ice, int axis, double dt
     ice->s_fc[q] = ice->s_old_fc[q];
     ice->u_fc[q] = ice->u_reply_fc[q] = ice->s_reply_fc[q] = 0;
     if (!ice_face_active(ice->kind[q])) continue;
-    struct face f = {.n = ice->porosity_fc[q], .rho = ice_face_density(ice, i - g->stride[axis], i), .s = ice->s_old_fc[q]};
+    struct face f = {
+        .n = ice->porosity_fc[q], .rho = ice_face_density(ice, i - g->stride[axis], i), .s = ice->s_old_fc[q]};
     f.u = ice->u_old_fc[q] - dt * (ice->gradP_fc[q] / f.rho - gravity[axis]);
     if (ice->skeleton) f.K = ice->drag_fc[q];
     if (ice->moves) f.rho_s = grain_density(m, c, i, corners, offset);

@@ -88,8 +88,10 @@ static double hydrostatic(const struct scene *scene, double head, double g)
   return P;
 }
 
-/* buoyant weight of the skeleton above x, where the fluid stands `head` high: pieces of `step`, x in the middle of the first */
-static double skeleton_weight(const struct scene *scene, const double x[3], const double up[3], double g, double head, double step)
+/* buoyant weight of the skeleton above x, where the fluid stands `head` high: pieces of `step`, x in the middle of the
+ * first */
+static double skeleton_weight(const struct scene *scene, const double x[3], const double up[3], double g, double head,
+                              double step)
 {
   double weight = 0, y[3], below = hydrostatic(scene, head, g);
   for (double s = 0;; s += step) {
@@ -114,6 +116,7 @@ enum status at_rest_column(const struct scene *scene, const double x[3], struct 
   rest->pressure = hydrostatic(scene, head, g);
   rest->effective = material_at(scene, x) ? -skeleton_weight(scene, x, up, g, head, step) : 0;
   if (!isfinite(rest->pressure) || !isfinite(rest->effective))
-    return FAIL(ERR_INPUT, "start: the column above (%g, %g, %g) has no finite weight; check gravity and densities", x[0], x[1], x[2]);
+    return FAIL(ERR_INPUT, "start: the column above (%g, %g, %g) has no finite weight; check gravity and densities",
+                x[0], x[1], x[2]);
   return OK;
 }

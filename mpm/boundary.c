@@ -1,9 +1,13 @@
-/* Walls on nodal fields. Mirrored ghosts: a ghost node is the image of the node inside, the normal component of a vector
- * is odd, everything else even; no-slip walls make all components odd. Modified splines need no ghosts. theory 3.2 */
+/* Walls on nodal fields. Mirrored ghosts: a ghost node is the image of the node inside, the normal component of a
+ * vector is odd, everything else even; no-slip walls make all components odd. Modified splines need no ghosts.
+ * theory 3.2 */
 #include "core/parallel.h"
 #include "mpm/mpm.h"
 
-static bool is_wall(const struct side_condition *side) { return side->kind != SIDE_OPEN && side->kind != SIDE_PERIODIC; }
+static bool is_wall(const struct side_condition *side)
+{
+  return side->kind != SIDE_OPEN && side->kind != SIDE_PERIODIC;
+}
 
 /* the plane of nodes on a side: all entries of the other axes */
 static struct box wall_plane(const struct grid *g, int side)
@@ -92,7 +96,7 @@ void boundary_ghosts(const struct kernel_grid *kg, const struct side_condition *
     for (int q = 0; q < n; q++) {
       double sign = parity(&sides[side], d, n, q), wall = sign < 0 ? wall_speed(g, &sides[side], c, q, t) : 0;
       field[(c + out) * n + q] = kg->modified[side] ? 2 * field[c * n + q] - field[(c - out) * n + q]
-                                                     : 2 * wall + sign * field[(c - out) * n + q];
+                                                    : 2 * wall + sign * field[(c - out) * n + q];
     }
   }
 }

@@ -20,7 +20,7 @@ static bool lattice_place(const struct scene *scene, long i, double x[3])
 {
   x[2] = 0;
   for (int d = 0; d < scene->dim; d++) {
-    int ppa = scene->numerics.points_per_axis[d];
+    int  ppa = scene->numerics.points_per_axis[d];
     long n = (long)scene->cells[d] * ppa;
     x[d] = scene->min[d] + ((double)(i % n) + 0.5) * scene->h / ppa;
     i /= n;

@@ -5,7 +5,8 @@
 #include <string.h>
 
 /* force on the solid at marker i: traction, and pressure against the outward normal; N */
-static void marker_force(const struct sim *sim, const struct mpm *m, const struct load *load, long i, double t, double force[3])
+static void marker_force(const struct sim *sim, const struct mpm *m, const struct load *load, long i, double t,
+                         double force[3])
 {
   double x[3] = {0};
   memcpy(x, m->x_m + i * sim->grid.dim, (size_t)sim->grid.dim * sizeof *x);
@@ -19,7 +20,8 @@ static void marker_force(const struct sim *sim, const struct mpm *m, const struc
 static const double light_node = 1e-3;
 
 /* centre and spread of the weights along an axis; dx [n]: distances of the nodes from that centre */
-static double axis_spread(const struct grid *g, const long *node, const double *w, int n, int axis, double *centre, double *dx)
+static double axis_spread(const struct grid *g, const long *node, const double *w, int n, int axis, double *centre,
+                          double *dx)
 {
   double spread = 0, x[3];
   *centre = 0;
@@ -35,8 +37,9 @@ static double axis_spread(const struct grid *g, const long *node, const double *
   return spread;
 }
 
-/* Nodes of a marker and its weights over those that hold enough of the solid. Their sum stays one and their centre at the
- * marker: beyond a free surface nodes are missing, and without the second a load would act too deep, a velocity be too low. */
+/* Nodes of a marker and its weights over those that hold enough of the solid. Their sum stays one and their centre at
+ * the marker: beyond a free surface nodes are missing, and without the second a load would act too deep, a velocity be
+ * too low. */
 static void marker_weights(const struct sim *sim, const struct mpm *m, long i, long *node, double *w)
 {
   const double *x = m->x_m + i * sim->grid.dim;

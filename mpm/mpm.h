@@ -17,12 +17,12 @@ struct mpm {
     double wave_speed, speed; /* m/s, largest of all points, of the last step */
     double work_loads;        /* J, since the start */
   } now;
-  double               *run_speed;         /* [n_runs][2] what they were made of */
-  long                 *marker_end;        /* [loads + tracers] markers of item i end here */
-  double               *marker_area;       /* [markers] m2 (m in 2D); 0: tracer */
-  double              (*marker_normal)[3]; /* outward, for pressure loads */
-  int                   n_markers;
-  bool                  moves;             /* some material is not held */
+  double *run_speed;          /* [n_runs][2] what they were made of */
+  long   *marker_end;         /* [loads + tracers] markers of item i end here */
+  double *marker_area;        /* [markers] m2 (m in 2D); 0: tracer */
+  double (*marker_normal)[3]; /* outward, for pressure loads */
+  int  n_markers;
+  bool moves; /* some material is not held */
 };
 
 extern const struct module module_mpm;
@@ -34,7 +34,8 @@ void mpm_marker_range(const struct sim *sim, const char *name, long *first, long
 
 /** Number of solid points, and where a solid's point is: fills x [n][3] and body [n] when they are not NULL. */
 long mpm_place_points(const struct scene *scene, double (*x)[3], int *body);
-/** The regular lattice of point places (points_per_axis per cell) clipped to the grid and a shape: used by every set. */
+/** The regular lattice of point places (points_per_axis per cell) clipped to the grid and a shape: used by every set.
+ */
 long mpm_fill_shape(const struct scene *scene, const struct shape *shape, double (*x)[3]);
 /** Bulk volume of one lattice point, m3 (m2 per metre in 2D). */
 double mpm_point_volume(const struct scene *scene);
@@ -53,7 +54,8 @@ void boundary_ghosts(const struct kernel_grid *kg, const struct side_condition *
 void boundary_velocity(const struct grid *g, const struct side_condition *sides, double t, double *vel_nc);
 /** Nodes that are advanced: owned ones, and one ghost layer behind open sides. */
 struct box boundary_nodes(const struct grid *g, const struct side_condition *sides);
-/** Volume of a node, the folded integral of its weight over the grid, m3: what it would hold if all space were filled. */
+/** Volume of a node, the folded integral of its weight over the grid, m3: what it would hold if all space were filled.
+ */
 double boundary_room(const struct kernel_grid *kg, enum basis basis, long node);
 
 #endif

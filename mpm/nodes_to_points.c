@@ -18,7 +18,8 @@ enum status mpm_advance_nodes(struct sim *sim, double dt)
   memcpy(m->vel_new_nc, m->vel_nc, (size_t)(g->size * dim) * sizeof(double));
   FOR_BOX(g, nodes, c)
   if (m->mass_nc[c] > m->mass_floor)
-    for (int d = 0; d < dim; d++) m->vel_new_nc[c * dim + d] += dt * (m->force_nc[c * dim + d] / m->mass_nc[c] + gravity[d]);
+    for (int d = 0; d < dim; d++)
+      m->vel_new_nc[c * dim + d] += dt * (m->force_nc[c * dim + d] / m->mass_nc[c] + gravity[d]);
   boundary_velocity(g, sides, sim->t + dt, m->vel_new_nc);
   boundary_ghosts(&m->kernel_grid, sides, dim, sim->t, m->vel_nc);
   boundary_ghosts(&m->kernel_grid, sides, dim, sim->t + dt, m->vel_new_nc);

@@ -23,7 +23,10 @@ enum status mpm_sort_now(struct sim *sim, struct mpm *m)
   return OK;
 }
 
-static void clear(const struct grid *g, int n, double *field) { memset(field, 0, (size_t)(g->size * n) * sizeof *field); }
+static void clear(const struct grid *g, int n, double *field)
+{
+  memset(field, 0, (size_t)(g->size * n) * sizeof *field);
+}
 
 static bool held(const struct sim *sim, int group) { return sim->scene->materials[group].model->held; }
 
@@ -61,7 +64,8 @@ static void velocities(const struct sim *sim, const struct mpm *m, double *vel_n
   struct box         all = grid_all(g);
   int                dim = g->dim;
   FOR_BOX(g, all, c)
-  for (int d = 0; d < dim; d++) vel_nc[c * dim + d] = m->mass_nc[c] > m->mass_floor ? m->mom_nc[c * dim + d] / m->mass_nc[c] : 0;
+  for (int d = 0; d < dim; d++)
+    vel_nc[c * dim + d] = m->mass_nc[c] > m->mass_floor ? m->mom_nc[c * dim + d] / m->mass_nc[c] : 0;
   boundary_velocity(g, sim->scene->solid_side, sim->t, vel_nc);
 }
 

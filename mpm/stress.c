@@ -43,7 +43,8 @@ static void speeds(const struct mpm *m, const struct material *material, int dim
   fastest[0] = fmax(fastest[0], material->model->wave_speed(material->model_params, n, rb, m->stress_p + p0 * 6, NULL));
 }
 
-static int update_batch(struct mpm *m, const struct material *material, int dim, double dt, long p0, int n, double fastest[2])
+static int update_batch(struct mpm *m, const struct material *material, int dim, double dt, long p0, int n,
+                        double fastest[2])
 {
   double dF[BATCH][9], F[BATCH][9];
   strain_batch(m, dim, dt, p0, n, dF, F);
@@ -79,9 +80,13 @@ enum status mpm_update_stress(struct sim *sim, double dt)
       bad += failed;
     }
   }
-  if (bad) return FAIL(ERR_DIVERGED, "mpm: %ld points could not be strained at t = %g s; lower numerics.dt_factor", bad, sim->t);
+  if (bad)
+    return FAIL(ERR_DIVERGED, "mpm: %ld points could not be strained at t = %g s; lower numerics.dt_factor", bad,
+                sim->t);
   reduce_speeds(m);
-  if (!(m->now.speed < INFINITY)) return FAIL(ERR_DIVERGED, "mpm: a solid point's velocity is not finite at t = %g s; lower numerics.dt_factor", sim->t);
+  if (!(m->now.speed < INFINITY))
+    return FAIL(ERR_DIVERGED, "mpm: a solid point's velocity is not finite at t = %g s; lower numerics.dt_factor",
+                sim->t);
   return OK;
 }
 
@@ -90,7 +95,8 @@ double mpm_stress_dt(const struct sim *sim)
 {
   const struct mpm *m = mpm_of(sim);
   double            h = sim->grid.h;
-  return fmin(sim->scene->numerics.dt_factor * h / m->now.wave_speed, m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
+  return fmin(sim->scene->numerics.dt_factor * h / m->now.wave_speed,
+              m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
 }
 
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m)

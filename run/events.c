@@ -29,8 +29,8 @@ static void merge(struct events *e, double t_end)
   e->n = kept;
 }
 
-enum status events_create(const struct scene *scene, double output_interval, const double *metric_times, int n_metric_times,
-                          double t_end, struct events *events)
+enum status events_create(const struct scene *scene, double output_interval, const double *metric_times,
+                          int n_metric_times, double t_end, struct events *events)
 {
   long outputs = output_interval > 0 && output_interval < t_end ? (long)(t_end / output_interval + 1e-9) : 0;
   *events = (struct events){0};

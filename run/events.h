@@ -17,8 +17,8 @@ struct events {
 };
 
 /** All times in (0, t_end], increasing; times closer than 1e-12 of the end are one. */
-enum status events_create(const struct scene *scene, double output_interval, const double *metric_times, int n_metric_times,
-                          double t_end, struct events *events) MUST_CHECK;
+enum status events_create(const struct scene *scene, double output_interval, const double *metric_times,
+                          int n_metric_times, double t_end, struct events *events) MUST_CHECK;
 void        events_destroy(struct events *events);
 /** Length of the next step: what is left until the next event is shared evenly among the fewest steps <= limit. *last:
  *  this step ends at the event. */

@@ -71,7 +71,7 @@ enum { FIXED_ITEMS = 5, MAX_ITEMS = FIXED_ITEMS + MAX_MODULES };
 /* everything besides the sim that a checkpoint must hold */
 static int checkpoint_items(struct run *r, struct checkpoint_item *items)
 {
-  int n = 0, n_values;
+  int     n = 0, n_values;
   double *values = metrics_values(r->metrics, &n_values);
   items[n++] = (struct checkpoint_item){"counts", sizeof r->counts / sizeof(double), (double *)&r->counts};
   items[n++] = (struct checkpoint_item){"stage_seconds", r->plan.n_stages, r->seconds};
@@ -81,7 +81,8 @@ static int checkpoint_items(struct run *r, struct checkpoint_item *items)
   for (int i = 0; i < r->plan.n_modules; i++) {
     const struct module *m = r->plan.modules[i];
     if (m->n_numbers > 0)
-      items[n++] = (struct checkpoint_item){m->name, m->n_numbers, (double *)((char *)r->sim->states[i] + m->numbers_offset)};
+      items[n++] =
+          (struct checkpoint_item){m->name, m->n_numbers, (double *)((char *)r->sim->states[i] + m->numbers_offset)};
   }
   return n;
 }
@@ -121,10 +122,11 @@ static enum status restore(struct run *r)
 /* one row of the gauges, and with it the ledger */
 static enum status sample(struct run *r)
 {
-  struct ledger *l = &r->sim->ledger;
-  const double  *start = r->sim->ledger_start.v;
-  static const enum ledger_entry energies[] = {LEDGER_kinetic_solid, LEDGER_kinetic_fluid, LEDGER_potential, LEDGER_elastic, LEDGER_compression};
-  double         now, before = 0, scale;
+  struct ledger                 *l = &r->sim->ledger;
+  const double                  *start = r->sim->ledger_start.v;
+  static const enum ledger_entry energies[] = {LEDGER_kinetic_solid, LEDGER_kinetic_fluid, LEDGER_potential,
+                                               LEDGER_elastic, LEDGER_compression};
+  double                         now, before = 0, scale;
   sim_measure(r->sim, l);
   now = -l->v[LEDGER_work_loads];
   scale = fabs(now);
@@ -212,7 +214,9 @@ static enum status step(struct run *r, bool *event)
   struct sim *sim = r->sim;
   const char *by;
   double      limit = sim_dt_limit(sim, &r->plan, &by), dt;
-  if (!(limit > 0)) return FAIL(ERR_DIVERGED, "%s: the time step limit is %g s at t = %g s; lower numerics.dt_factor", by, limit, sim->t);
+  if (!(limit > 0))
+    return FAIL(ERR_DIVERGED, "%s: the time step limit is %g s at t = %g s; lower numerics.dt_factor", by, limit,
+                sim->t);
   sim->dt_limit = limit / sim->scene->numerics.dt_factor;
   dt = events_step(&r->events, sim->t, limit, event);
   sim->dt = dt;
@@ -242,13 +246,17 @@ static enum status advance(struct run *r)
     if (due) r->counts.gauge_samples = floor(r->sim->t / r->gauge_interval) + 1;
     if (due && !event) TRY(sample(r));
     progress_step(&r->progress, r->sim->t, r->sim->dt, r->sim->step);
-    if (progress_stop_asked()) return FAIL(INTERRUPTED, "interrupted at t = %g s; go on with: mpmice resume %s", r->sim->t, r->folder);
+    if (progress_stop_asked())
+      return FAIL(INTERRUPTED, "interrupted at t = %g s; go on with: mpmice resume %s", r->sim->t, r->folder);
     if (progress_clock() - r->checkpoint_wall > r->sim->scene->output.checkpoint_interval) TRY(save(r));
   }
   return OK;
 }
 
-static double relative(double now, double before) { return before != 0 ? fabs(now - before) / fabs(before) : fabs(now); }
+static double relative(double now, double before)
+{
+  return before != 0 ? fabs(now - before) / fabs(before) : fabs(now);
+}
 
 static void fill_ledger(const struct run *r, struct run_record *record)
 {
@@ -258,7 +266,8 @@ static void fill_ledger(const struct run *r, struct run_record *record)
     double change = now[LEDGER_momentum_x + d] - before[LEDGER_momentum_x + d];
     momentum += change * change;
   }
-  scale = sqrt(2 * (now[LEDGER_mass_solid] + now[LEDGER_mass_fluid]) * (before[LEDGER_kinetic_solid] + before[LEDGER_kinetic_fluid]));
+  scale = sqrt(2 * (now[LEDGER_mass_solid] + now[LEDGER_mass_fluid]) *
+               (before[LEDGER_kinetic_solid] + before[LEDGER_kinetic_fluid]));
   record->mass_solid_rel = relative(now[LEDGER_mass_solid], before[LEDGER_mass_solid]);
   record->mass_fluid_rel = relative(now[LEDGER_mass_fluid] + now[LEDGER_mass_fluid_out], before[LEDGER_mass_fluid]);
   record->momentum_rel = scale > 0 ? sqrt(momentum) / scale : 0;
@@ -318,7 +327,8 @@ static enum status write_summary(struct run *r, const char *status, bool *missed
   record.left_out = left_out;
   record.n_left_out = r->plan.n_left_out;
   TRY(metrics_finish(r->metrics, r->gauges, r->loaded, r->t_end, &record.n_metrics, &record.metrics));
-  for (int i = 0; i < record.n_metrics; i++) *missed = *missed || (record.metrics[i].has_limit && !record.metrics[i].pass);
+  for (int i = 0; i < record.n_metrics; i++)
+    *missed = *missed || (record.metrics[i].has_limit && !record.metrics[i].pass);
   if (!r->options->quiet) summary_print(&record);
   return summary_write(r->folder, &record);
 }
@@ -329,13 +339,15 @@ static void print_timers(const struct run *r)
   for (int i = 0; i < r->plan.n_stages; i++) total += r->seconds[i];
   printf("%-34s %10s %12s %8s\n", "stage", "calls", "us per call", "share");
   for (int i = 0; i < r->plan.n_stages; i++)
-    printf("%-34s %10.0f %12.3f %7.1f%%\n", r->plan.stages[i]->name, r->calls[i], 1e6 * r->seconds[i] / fmax(1, r->calls[i]),
-           total > 0 ? 100 * r->seconds[i] / total : 0);
+    printf("%-34s %10.0f %12.3f %7.1f%%\n", r->plan.stages[i]->name, r->calls[i],
+           1e6 * r->seconds[i] / fmax(1, r->calls[i]), total > 0 ? 100 * r->seconds[i] / total : 0);
   const struct sim *sim = r->sim;
-  double            steps = fmax(1, (double)sim->step), cells = (double)sim->grid.n[0] * sim->grid.n[1] * sim->grid.n[2];
+  double steps = fmax(1, (double)sim->step), cells = (double)sim->grid.n[0] * sim->grid.n[1] * sim->grid.n[2];
   printf("per step %.3f us", 1e6 * total / steps);
-  if (sim->points[SET_SOLID]) printf(", %.1f ns per solid point", 1e9 * total / steps / (double)sim->points[SET_SOLID]->n);
-  if (sim->points[SET_WATER]) printf(", %.1f ns per water point", 1e9 * total / steps / (double)sim->points[SET_WATER]->n);
+  if (sim->points[SET_SOLID])
+    printf(", %.1f ns per solid point", 1e9 * total / steps / (double)sim->points[SET_SOLID]->n);
+  if (sim->points[SET_WATER])
+    printf(", %.1f ns per water point", 1e9 * total / steps / (double)sim->points[SET_WATER]->n);
   printf(", %.1f ns per cell\n", 1e9 * total / steps / cells);
 }
 

@@ -68,18 +68,24 @@ static enum status check_read(const char *word, void *context)
 {
   struct check       *c = context;
   const struct field *f = find_field(c->plan, word);
-  if (!f) return FAIL(ERR_INPUT, "plan: stage %s reads the unknown field %s; declare it in a fields.def", c->stage->name, word);
+  if (!f)
+    return FAIL(ERR_INPUT, "plan: stage %s reads the unknown field %s; declare it in a fields.def", c->stage->name,
+                word);
   if (f->kind == STATE) return OK;
   for (int i = 0; i < c->n_written; i++)
     if (!strcmp(c->written[i], f->name)) return OK;
-  return FAIL(ERR_INPUT, "plan: stage %s reads %s before any stage writes it; a module's stage is missing for this scene", c->stage->name, word);
+  return FAIL(ERR_INPUT,
+              "plan: stage %s reads %s before any stage writes it; a module's stage is missing for this scene",
+              c->stage->name, word);
 }
 
 static enum status note_written(const char *word, void *context)
 {
   struct check       *c = context;
   const struct field *f = find_field(c->plan, word);
-  if (!f) return FAIL(ERR_INPUT, "plan: stage %s writes the unknown field %s; declare it in a fields.def", c->stage->name, word);
+  if (!f)
+    return FAIL(ERR_INPUT, "plan: stage %s writes the unknown field %s; declare it in a fields.def", c->stage->name,
+                word);
   c->written[c->n_written++ % MAX_PLAN_FIELDS] = f->name;
   return OK;
 }
@@ -154,8 +160,8 @@ void plan_explain(const struct plan *plan, FILE *out)
 {
   for (int i = 0; i < plan->n_stages; i++) {
     const struct stage *s = plan->stages[i];
-    fprintf(out, "%2d  %-16s %-32s %s -> %s   theory %s\n", i + 1, slot_names[s->slot], s->name, s->reads ? s->reads : "",
-            s->writes ? s->writes : "", s->source);
+    fprintf(out, "%2d  %-16s %-32s %s -> %s   theory %s\n", i + 1, slot_names[s->slot], s->name,
+            s->reads ? s->reads : "", s->writes ? s->writes : "", s->source);
   }
   for (int i = 0; i < plan->n_left_out; i++)
     fprintf(out, "    left out         %-32s %s\n", plan->left_out[i].name, plan->left_out[i].why);

@@ -35,7 +35,8 @@ void plan_explain(const struct plan *plan, FILE *out);
 enum status sim_create(const struct scene *scene, const struct plan *plan, struct sim **sim) MUST_CHECK;
 void        sim_destroy(struct sim **sim);
 /** Number of points of each set (and of markers), and of groups, that a scene would have. */
-enum status sim_count_points(const struct scene *scene, const struct plan *plan, long n[N_COUNTS], int groups[N_SETS]) MUST_CHECK;
+enum status sim_count_points(const struct scene *scene, const struct plan *plan, long n[N_COUNTS],
+                             int groups[N_SETS]) MUST_CHECK;
 /** Smallest time step limit of the planned stages and numerics.dt_max, s; *by: its stage's name. */
 double sim_dt_limit(const struct sim *sim, const struct plan *plan, const char **by);
 /** What is in the run now. */

@@ -2,7 +2,7 @@
 #if defined IS_LINEAR
 enum { N1 = 2 };
 static const double moment = 0;
-static inline int axis_weights(double s, double half, double *w, double *d)
+static inline int   axis_weights(double s, double half, double *w, double *d)
 {
   (void)half;
   int    c = (int)floor(s);
@@ -16,7 +16,7 @@ static inline int axis_weights(double s, double half, double *w, double *d)
 #elif defined IS_QUADRATIC
 enum { N1 = 3 };
 static const double moment = 0.25;
-static inline int axis_weights(double s, double half, double *w, double *d)
+static inline int   axis_weights(double s, double half, double *w, double *d)
 {
   (void)half;
   int    c = (int)floor(s - 0.5);
@@ -32,7 +32,7 @@ static inline int axis_weights(double s, double half, double *w, double *d)
 #elif defined IS_CUBIC
 enum { N1 = 4 };
 static const double moment = 1.0 / 3;
-static inline int axis_weights(double s, double half, double *w, double *d)
+static inline int   axis_weights(double s, double half, double *w, double *d)
 {
   (void)half;
   int    c = (int)floor(s);
@@ -51,7 +51,7 @@ static inline int axis_weights(double s, double half, double *w, double *d)
 /* uGIMP: the linear hat averaged over a point of fixed half width l, in h, at most 1/2. Bardenhagen and Kober 2004 */
 enum { N1 = 3 };
 static const double moment = 0;
-static inline int axis_weights(double s, double l, double *w, double *d)
+static inline int   axis_weights(double s, double l, double *w, double *d)
 {
   int c = (int)floor(s - 0.5);
   for (int k = 0; k < 3; k++) {

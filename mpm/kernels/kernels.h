@@ -9,7 +9,7 @@
 /* What all kernels need to know of the grid. */
 struct kernel_grid {
   struct grid g;
-  double      half_width[3]; /* m, GIMP: half a point's width */
+  double      half_width[3];   /* m, GIMP: half a point's width */
   bool        modified[SIDES]; /* boundary-modified splines at this wall: ghost weights are folded into the basis */
 };
 
@@ -20,14 +20,16 @@ struct kernel_run {
 };
 
 /* Points to nodes. x, vel [n][DIM]; affine [n][DIM][DIM] or NULL; mass, volume [n]; stress [n][6] Pa or NULL;
- * pressure [n] Pa or NULL (compression positive); adds to mass_nc [size] kg, mom_nc, force_nc [size][DIM] (NULL: not wanted). */
+ * pressure [n] Pa or NULL (compression positive); adds to mass_nc [size] kg, mom_nc, force_nc [size][DIM] (NULL: not
+ * wanted). */
 struct p2g_args {
   const double *x, *vel, *affine, *mass, *volume, *stress, *pressure;
   double       *mass_nc, *mom_nc, *force_nc;
 };
 
-/* Nodes to points. vel_old_nc, vel_nc [size][DIM]; beta: share of the nodal velocity, T(30); moves x, displacement (NULL: not
- * wanted) by the nodal velocity; affine, gradv [n][DIM][DIM], gradv 1/s row i column j = dv_i/dx_j; NULL: not wanted. */
+/* Nodes to points. vel_old_nc, vel_nc [size][DIM]; beta: share of the nodal velocity, T(30); moves x, displacement
+ * (NULL: not wanted) by the nodal velocity; affine, gradv [n][DIM][DIM], gradv 1/s row i column j = dv_i/dx_j; NULL:
+ * not wanted. */
 struct g2p_args {
   double        dt, beta;
   const double *vel_old_nc, *vel_nc;
@@ -58,7 +60,7 @@ struct gather_args {
 struct kernels {
   int        dim;
   enum basis basis;
-  double     moment; /* D of T(28) in the interior, in h2; 0: C is the velocity gradient (linear, GIMP) */
+  double     moment;    /* D of T(28) in the interior, in h2; 0: C is the velocity gradient (linear, GIMP) */
   int        n_support; /* nodes that weights() writes */
   void (*p2g)(const struct kernel_grid *, const struct kernel_run *, const struct p2g_args *);
   void (*g2p)(const struct kernel_grid *, const struct kernel_run *, const struct g2p_args *);
@@ -79,10 +81,11 @@ void kernel_grid_create(const struct grid *g, const struct numerics *numerics, c
 /** Calls kernel(kg, run, args) for every block, blocks of one colour in parallel. groups: which groups of points. */
 #define FOR_RUNS(points, grid, run, group)                                                                             \
   for (int colour_ = 0; colour_ < points_colours(grid); colour_++)                                                     \
-    PARALLEL_FOR_DYNAMIC for (long i_ = 0; i_ < kernels_blocks_of_colour(points, (grid)->dim, colour_); i_++)          \
-        for (int group = 0; group < (points)->n_groups; group++)                                                       \
-          for (struct kernel_run run = kernels_run(points, (grid)->dim, colour_, i_, group); run.begin < run.end;      \
-               run.begin = run.end)
+  PARALLEL_FOR_DYNAMIC for (long i_ = 0; i_ < kernels_blocks_of_colour(points, (grid)->dim, colour_);                  \
+                            i_++) for (int group = 0; group < (points)->n_groups;                                      \
+                                       group++) for (struct kernel_run run =                                           \
+                                                         kernels_run(points, (grid)->dim, colour_, i_, group);         \
+                                                     run.begin < run.end; run.begin = run.end)
 
 long              kernels_blocks_of_colour(const struct points *p, int dim, int colour);
 struct kernel_run kernels_run(const struct points *p, int dim, int colour, long i, int group);

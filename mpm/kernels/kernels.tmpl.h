@@ -33,7 +33,8 @@ struct stencil {
   double w[3][4], d[3][4], r[3][4];
 };
 
-/* a wall's ghost node is the linear extrapolation of the two nodes inside: q_-1 = 2 q_0 - q_1. T section 3.2, its four types */
+/* a wall's ghost node is the linear extrapolation of the two nodes inside: q_-1 = 2 q_0 - q_1. T section 3.2, its four
+ * types */
 static inline void fold_axis(const struct kernel_grid *kg, int axis, int first, double *w, double *d)
 {
   int n = kg->g.n[axis], low = -first, high = n - first; /* positions of the wall nodes in the stencil */
@@ -99,7 +100,8 @@ static inline long tile_index(const struct tile *t, int i, int j, int k)
            r < end_; r++, node++)
 
 /* adds one point: A0 [LANES], A [DIM][LANES], G [DIM][LANES] */
-static inline void tile_add(struct tile *t, const struct stencil *s, const double *A0, double A[DIM][LANES], double G[DIM][LANES])
+static inline void tile_add(struct tile *t, const struct stencil *s, const double *A0, double A[DIM][LANES],
+                            double G[DIM][LANES])
 {
   for (int k = 0; k < N1_Z; k++)
     for (int j = 0; j < N1; j++) {
@@ -127,7 +129,8 @@ static inline void tile_add(struct tile *t, const struct stencil *s, const doubl
 }
 
 /* sums over the nodes of a point: S0 = sum w u, R[a] = sum w r_a u, D[a] = sum dw/dx_a u */
-static inline void tile_gather(const struct tile *t, const struct stencil *s, double *S0, double R[DIM][LANES], double D[DIM][LANES])
+static inline void tile_gather(const struct tile *t, const struct stencil *s, double *S0, double R[DIM][LANES],
+                               double D[DIM][LANES])
 {
   memset(S0, 0, LANES * sizeof *S0);
   memset(R, 0, DIM * sizeof *R);
@@ -211,8 +214,10 @@ static inline double axis_moment(const struct stencil *s, int axis)
   return m;
 }
 
-/* affine velocity matrix: B D^-1, or the velocity gradient where D is not a number (linear, GIMP) or vanishes at a wall */
-static inline void affine_matrix(const struct kernel_grid *kg, const struct stencil *s, double R[DIM][LANES], double D[DIM][LANES], double *C)
+/* affine velocity matrix: B D^-1, or the velocity gradient where D is not a number (linear, GIMP) or vanishes at a wall
+ */
+static inline void affine_matrix(const struct kernel_grid *kg, const struct stencil *s, double R[DIM][LANES],
+                                 double D[DIM][LANES], double *C)
 {
   for (int e = 0; e < DIM; e++) {
     double m = axis_moment(s, e);
