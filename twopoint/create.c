@@ -156,7 +156,7 @@ static void weigh_points(struct sim *sim, struct twopoint *w)
 {
   const double zero = 0;
   sim->scene->fluid.eos->density(sim->scene->fluid.eos_params, 1, &zero, NULL, &w->rho0);
-  if (w->coupling) twopoint_gather_porosity(sim, w);
+  if (w->coupling) twopoint_start_porosity(sim, w);
   twopoint_volume_of_pressure(sim, w);
   w->mass_floor = INFINITY;
   for (long p = 0; p < w->points->n; p++) {

@@ -15,10 +15,10 @@ void twopoint_clear(const struct sim *sim, int n, double *field)
   memset(field, 0, (size_t)(sim->grid.size * n) * sizeof *field);
 }
 
-/* volume that the water fills at nodes; with `product` also volume times porosity of the points, into porosity_nc */
-static void gather_volumes(struct sim *sim, struct twopoint *w, bool product)
+/* volume that the water fills, and with a skeleton that times the porosity of the points, into porosity_nc */
+static void gather_volumes(struct sim *sim, struct twopoint *w)
 {
-  struct scatter_args args = {.n = product ? 2 : 1,
+  struct scatter_args args = {.n = w->coupling ? 2 : 1,
                               .x = w->x_w,
                               .weight = w->volume_w,
                               .value = {NULL, w->porosity_w},
@@ -38,13 +38,18 @@ static double filled_porosity(const struct twopoint *w, long node)
   return filled > 1e-9 ? fmax(least_porosity, 1 - c->solid_nc[node] / room / filled) : 1;
 }
 
-void twopoint_gather_porosity(struct sim *sim, struct twopoint *w)
+static void find_skeleton_porosity(struct sim *sim, struct twopoint *w)
 {
   struct box nodes = boundary_nodes(&sim->grid, w->sides);
-  gather_volumes(sim, w, false);
   FOR_BOX(&sim->grid, nodes, i) w->skeleton_porosity_nc[i] = filled_porosity(w, i);
   boundary_ghosts(&w->kernel_grid, w->sides, 1, sim->t, w->skeleton_porosity_nc);
+}
+
+void twopoint_start_porosity(struct sim *sim, struct twopoint *w)
+{
   struct gather_args args = {.n = 1, .x = w->x_w, .node = {w->skeleton_porosity_nc}, .value = {w->porosity_w}};
+  gather_volumes(sim, w);
+  find_skeleton_porosity(sim, w);
   FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->gather(&w->kernel_grid, &run, &args);
 }
 
@@ -73,11 +78,13 @@ enum status twopoint_find_porosity(struct sim *sim, double dt)
 {
   (void)dt;
   struct twopoint *w = twopoint_of(sim);
-  if (w->coupling) twopoint_gather_porosity(sim, w);
   PARALLEL_FOR
   for (long p = 0; p < w->points->n; p++) w->volume_w[p] = w->mass_w[p] * w->J_w[p] / (w->rho0 * w->porosity_w[p]);
-  gather_volumes(sim, w, w->coupling != NULL);
-  if (w->coupling) average_porosity(sim, w);
+  gather_volumes(sim, w);
+  if (w->coupling) {
+    find_skeleton_porosity(sim, w);
+    average_porosity(sim, w);
+  }
   find_fill(sim, w);
   return OK;
 }

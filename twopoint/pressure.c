@@ -46,7 +46,7 @@ static void find_flux(const struct sim *sim, struct twopoint *w)
   }
 }
 
-/* dlnJ = dt div q / n at every point */
+/* dlnJ = dt div q / n at every point, n taken at the same place */
 static void find_increment(struct sim *sim, struct twopoint *w, double dt)
 {
   int                dim = sim->grid.dim;
@@ -55,6 +55,11 @@ static void find_increment(struct sim *sim, struct twopoint *w, double dt)
     args.node[d] = w->flux_nc + d;
     args.stride[d] = dim;
     args.gradient[d] = w->gradq_w + d * dim;
+  }
+  if (w->coupling) {
+    args.node[dim] = w->skeleton_porosity_nc;
+    args.value[dim] = w->porosity_w;
+    args.n++;
   }
   FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->gather(&w->kernel_grid, &run, &args);
   PARALLEL_FOR

@@ -67,8 +67,8 @@ double twopoint_fast_wave(double n, double E_oed, double rho_s, double rho, doub
 
 /** Sorts the water now, whether needed or not. */
 enum status twopoint_sort_now(struct sim *sim, struct twopoint *w) MUST_CHECK;
-/** Porosity at the nodes, from the volumes that the points have, and at the points. */
-void twopoint_gather_porosity(struct sim *sim, struct twopoint *w);
+/** Porosity at the points at the start, from the volumes that they have. */
+void twopoint_start_porosity(struct sim *sim, struct twopoint *w);
 /** P_w from J_w, or J_w from P_w, by the law. */
 void twopoint_pressure_of_volume(const struct sim *sim, struct twopoint *w);
 void twopoint_volume_of_pressure(const struct sim *sim, struct twopoint *w);
