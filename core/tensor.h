@@ -26,6 +26,15 @@ static inline double tensor_determinant(const double a[9])
   return a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6]) + a[2] * (a[3] * a[7] - a[4] * a[6]);
 }
 
+static inline void tensor_inverse(const double a[9], double b[9])
+{
+  double d = 1 / tensor_determinant(a);
+  double r[9] = {a[4] * a[8] - a[5] * a[7], a[2] * a[7] - a[1] * a[8], a[1] * a[5] - a[2] * a[4],
+                 a[5] * a[6] - a[3] * a[8], a[0] * a[8] - a[2] * a[6], a[2] * a[3] - a[0] * a[5],
+                 a[3] * a[7] - a[4] * a[6], a[1] * a[6] - a[0] * a[7], a[0] * a[4] - a[1] * a[3]};
+  for (int i = 0; i < 9; i++) b[i] = d * r[i];
+}
+
 static inline void tensor_from_symmetric(const double s[6], double a[9])
 {
   double r[9] = {s[XX], s[XY], s[XZ], s[XY], s[YY], s[YZ], s[XZ], s[YZ], s[ZZ]};

@@ -3,6 +3,7 @@
 
 #include "constitutive/constitutive.h"
 #include "core/parallel.h"
+#include "core/tensor.h"
 
 #include <string.h>
 
@@ -81,6 +82,22 @@ enum status mpm_fold_nodes(struct sim *sim, double dt)
   return OK;
 }
 
+/* The regathered gradient L is taken at the new places, dF = (I - dt L)^-1. It becomes the gradient at the old ones:
+ * dF = I + dt L', L' = L (I - dt L)^-1 */
+static void refer_to_start(const struct sim *sim, struct mpm *m, double dt)
+{
+  int dim = sim->grid.dim;
+  PARALLEL_FOR
+  for (long p = 0; p < m->points->n; p++) {
+    double *L = m->gradv_p + p * dim * dim, wide[9] = {0}, left[9], inverse[9];
+    for (int q = 0; q < dim * dim; q++) wide[q / dim * 3 + q % dim] = L[q];
+    for (int q = 0; q < 9; q++) left[q] = (q % 4 == 0) - dt * wide[q];
+    tensor_inverse(left, inverse);
+    tensor_product(wide, inverse, wide);
+    for (int q = 0; q < dim * dim; q++) L[q] = wide[q / dim * 3 + q % dim];
+  }
+}
+
 /* MUSL: the velocity whose gradient strains the points is gathered from their new velocities, at their new places (mass
  * too: old masses under new momenta tear free surfaces apart). Sulsky et al. 1995 */
 enum status mpm_remap_momentum(struct sim *sim, double dt)
@@ -95,5 +112,6 @@ enum status mpm_remap_momentum(struct sim *sim, double dt)
   velocities(sim, m, m->vel_new_nc);
   boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, m->vel_new_nc);
   mpm_gather_gradient(sim, m, m->vel_new_nc);
+  refer_to_start(sim, m, dt);
   return OK;
 }

@@ -90,13 +90,20 @@ enum status mpm_update_stress(struct sim *sim, double dt)
   return OK;
 }
 
+double mpm_basis_step(const struct sim *sim)
+{
+  double least = 1;
+  if (sim->scene->numerics.basis != BASIS_GIMP) return 1;
+  for (int d = 0; d < sim->grid.dim; d++) least = fmin(least, 2 * mpm_of(sim)->kernel_grid.half_width[d] / sim->grid.h);
+  return sqrt(least);
+}
+
 /* elastic wave over a cell; and half a cell of motion */
 double mpm_stress_dt(const struct sim *sim)
 {
   const struct mpm *m = mpm_of(sim);
-  double            h = sim->grid.h;
-  return fmin(sim->scene->numerics.dt_factor * h / m->now.wave_speed,
-              m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
+  double            h = sim->grid.h, wave = sim->scene->numerics.dt_factor * mpm_basis_step(sim) * h / m->now.wave_speed;
+  return fmin(wave, m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
 }
 
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m)

@@ -214,15 +214,14 @@ static inline double axis_moment(const struct stencil *s, int axis)
   return m;
 }
 
-/* affine velocity matrix: B D^-1, or the velocity gradient where D is not a number (linear, GIMP) or vanishes at a wall
- */
+/* affine velocity matrix B D^-1, T(28) with the point's own D; the velocity gradient where D vanishes at a wall */
 static inline void affine_matrix(const struct kernel_grid *kg, const struct stencil *s, double R[DIM][LANES],
                                  double D[DIM][LANES], double *C)
 {
   for (int e = 0; e < DIM; e++) {
     double m = axis_moment(s, e);
-    bool   spline = moment > 0 && m > 0.05 * kg->g.h * kg->g.h;
-    for (int d = 0; d < DIM; d++) C[d * DIM + e] = spline ? R[e][d] / m : D[e][d];
+    bool   wide = m > 0.05 * kg->g.h * kg->g.h;
+    for (int d = 0; d < DIM; d++) C[d * DIM + e] = wide ? R[e][d] / m : D[e][d];
   }
 }
 
