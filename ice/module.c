@@ -19,16 +19,16 @@ static const struct field fields[] = {
 };
 
 static const struct stage stages[] = {
-    {"ice.mark_extent", SLOT_fluid_extent, "wet_cc", "fluid_fill_nc", "4.1", "there is a skeleton", skeleton,
+    {"ice.mark_extent", SLOT_fluid_extent, "wet_cc", "fluid_fill_nc", "4.1", "only when there is a skeleton", skeleton,
      ice_mark_extent, NULL},
     {"ice.update_properties", SLOT_volume_fractions, "P_cc mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1", "always",
      NULL, ice_update_properties, NULL},
     {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2",
      "always", NULL, ice_predict_faces, ice_dt_limit},
     {"ice.predict_solid", SLOT_predict, "mass_nc force_nc vel_nc solid_nc room_nc gradP_fc", "vel_star_nc s_old_fc",
-     "4.2", "a solid moves", moving, ice_predict_solid, NULL},
+     "4.2", "only when a solid moves", moving, ice_predict_solid, NULL},
     {"ice.resist_faces", SLOT_drag, "u_old_fc s_old_fc porosity_fc fill_fc medium_porosity_fc", "drag_fc", "2.2",
-     "there is a skeleton", skeleton, ice_resist_faces, NULL},
+     "only when there is a skeleton", skeleton, ice_resist_faces, NULL},
     {"ice.eliminate_drag", SLOT_eliminate, "u_old_fc s_old_fc gradP_fc rho_cc", "u_fc s_fc u_reply_fc s_reply_fc",
      "4.3", "always", NULL, ice_eliminate_drag, NULL},
     {"ice.solve_pressure", SLOT_pressure, "u_fc s_fc u_reply_fc s_reply_fc flux_fc defect_cc",
@@ -36,10 +36,10 @@ static const struct stage stages[] = {
     {"ice.correct_faces", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
      "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4", "always", NULL, ice_correct_faces, NULL},
     {"ice.move_defect", SLOT_defect, "defect_cc diagonal_cc coupling_fc carried_fc", "shift_cc carried_fc", "4.5",
-     "a solid moves", moving, ice_move_defect, NULL},
+     "only when a solid moves", moving, ice_move_defect, NULL},
     {"ice.update_cells", SLOT_cells, "u_fc u_old_fc carried_fc mass_cc vel_cc", "mass_cc vel_cc beyond_fc", "4.6",
      "always", NULL, ice_update_cells, NULL},
-    {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6", "a solid moves",
+    {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6", "only when a solid moves",
      moving, ice_push_solid, NULL},
 };
 

@@ -128,7 +128,7 @@ enum status plan_build(const struct scene *scene, struct plan *plan)
     if (m->is_fluid_path ? scene->fluid.present && scene->fluid.path == m : !m->needed || m->needed(scene))
       plan->modules[plan->n_modules++] = m;
     else
-      leave_out(plan, m->name, m->is_fluid_path ? "only when it is the fluid path" : "only with solids and a fluid");
+      leave_out(plan, m->name, m->is_fluid_path ? "only when it is fluid.path" : "only when the scene needs it");
   }
   choose_stages(scene, plan);
   return check_fields(plan);
