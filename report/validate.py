@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Runs cases in full against their references and writes down what came out.
+
+usage: validate.py --program PROGRAM --out FOLDER [CASE ...]
+
+CASE is the name of a case (all its variants) or case+variant; without any, everything that cases/*/expected.json has limits for,
+quick variants excepted. FOLDER/results.json keeps the figures of cases that did not run this time; FOLDER/README.md shows all.
+"""
+import argparse
+import glob
+import json
+import os
+import platform
+import subprocess
+import sys
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def jobs(wanted):
+    """[(scene, path)] in the order of the folders."""
+    found = []
+    for file in sorted(glob.glob(os.path.join(ROOT, "cases", "*", "expected.json"))):
+        case = os.path.basename(os.path.dirname(file))
+        with open(file) as text:
+            expected = json.load(text)
+        for variant, paths in expected.items():
+            scene = case if variant == "base" else f"{case}+{variant}"
+            if "quick" not in variant.split("+") and (not wanted or case in wanted or scene in wanted):
+                found += [(scene, path) for path in paths]
+    return found
+
+
+def run(program, scene, path):
+    """One run's figures; None for its metrics if it failed."""
+    folder = os.path.join(ROOT, "out", "validate", f"{scene}-{path}")
+    command = [program, "run", scene, "--quiet", "--force", "--out", folder] + ([] if path == "solid" else ["--fluid", path])
+    started = time.monotonic()
+    result = subprocess.run(command, stderr=subprocess.PIPE, text=True)
+    record = {"exit": result.returncode, "message": result.stderr.strip(), "wall_s": round(time.monotonic() - started, 2)}
+    if result.returncode in (0, 1):
+        with open(os.path.join(folder, "summary.json")) as file:
+            summary = json.load(file)
+        record.update({key: summary[key] for key in ("steps", "cells", "points_solid", "points_fluid", "threads", "version", "ledger", "metrics")})
+        record["dt_mean"] = summary["dt"]["mean"]
+    return record
+
+
+def number(value):
+    return "" if value is None else f"{value:.3g}"
+
+
+def rows(scene, path, record):
+    if "metrics" not in record:
+        return [f"| {scene} | {path} | **failed** | {record['message'].replace('|', '/')} | | | | | |"]
+    lines = []
+    for name, m in record["metrics"].items():
+        verdict = "" if m["limit"] is None else "ok" if m["pass"] else "**missed**"
+        lines.append(f"| {scene} | {path} | {name} | {number(m['value'])} | {number(m['limit'])} | {m['unit']} | {verdict} | "
+                     f"{record['steps']} x {number(record['dt_mean'])} s | {record['wall_s']} s |")
+    return lines
+
+
+def page(results):
+    lines = ["# Validation", "",
+             "Written by `./dev validate`: every case in full on every path it has limits for. `value` is compared with `limit`; what each metric is",
+             "stands in the case's README. Run times are wall times of the machine named in `results.json`.", "",
+             "| case | path | metric | value | limit | unit | | steps | run time |", "|---|---|---|---|---|---|---|---|---|"]
+    for key in sorted(results["runs"]):
+        scene, path = key.rsplit(" ", 1)
+        lines += rows(scene, path, results["runs"][key])
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("case", nargs="*")
+    options = parser.parse_args()
+    selected = jobs(options.case)
+    if not selected:
+        sys.exit(f"validate.py: no case {', '.join(options.case)} in cases/*/expected.json")
+    os.makedirs(options.out, exist_ok=True)
+    store = os.path.join(options.out, "results.json")
+    results = {"runs": {}}
+    if os.path.exists(store):
+        with open(store) as file:
+            results = json.load(file)
+    results["machine"] = f"{platform.machine()}, {os.cpu_count()} cores"
+    missed = 0
+    for scene, path in selected:
+        record = run(options.program, scene, path)
+        results["runs"][f"{scene} {path}"] = record
+        missed += record["exit"] != 0
+        print(f"{scene:40s} {path:10s} {'ok' if record['exit'] == 0 else 'MISSED' if record['exit'] == 1 else 'FAILED':7s}{record['wall_s']:10.1f} s", flush=True)
+        with open(store, "w") as file:
+            json.dump(results, file, indent=1, sort_keys=True)
+            file.write("\n")
+        with open(os.path.join(options.out, "README.md"), "w") as file:
+            file.write(page(results))
+    print(f"{len(selected) - missed} of {len(selected)} within their limits; written: {options.out}/README.md")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
