@@ -15,7 +15,8 @@ set(FOLDERS core eos constitutive mpm coupling twopoint ice references run)
 
 # what stands in one file only: a pattern and that file
 set(ONLY
-  "include <(HYPRE|mpi|cholmod|umfpack)" core/linear.c
+  "include <(HYPRE|mpi)" core/linear_hypre.c
+  "include <(cholmod|umfpack)" core/linear_direct.c
   "include <omp" core/parallel.c
   "include <hdf5" run/h5.c
   "include <cjson" run/json.h
