@@ -50,6 +50,7 @@ static enum status create_pattern(struct linear_direct *l)
   TRY(NEW(&l->source, most));
   cholmod_start(&l->common);
   l->common.print = 0;
+  l->common.final_ll = 1; /* LDL' would also take matrices that are not positive definite */
   l->A = cholmod_allocate_sparse((size_t)n, (size_t)n, (size_t)most, 0, 1, -1, CHOLMOD_REAL, &l->common);
   l->rhs = cholmod_allocate_dense((size_t)n, 1, (size_t)n, CHOLMOD_REAL, &l->common);
   if (!l->A || !l->rhs)
