@@ -193,6 +193,30 @@ static void start_fluxes(struct sim *sim, struct ice *ice)
   }
 }
 
+/* share of every node's room that is wet */
+static void mark_extent(struct sim *sim)
+{
+  const struct ice      *ice = ice_of(sim);
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  struct box             nodes = grid_nodes(g);
+  long                   offset[8];
+  int                    around = grid_node_offsets(g, -1, offset);
+  FOR_BOX(g, nodes, n)
+  {
+    int    place[3], cells = 0;
+    double wet = 0;
+    for (int i = 0; i < around; i++) {
+      bool inside = true;
+      grid_place(g, n - offset[i], place);
+      for (int d = 0; d < g->dim; d++) inside = inside && (g->periodic[d] || (place[d] >= 0 && place[d] < g->n[d]));
+      cells += inside;
+      if (inside) wet += ice->wet_cc[n - offset[i]];
+    }
+    c->fluid_fill_nc[n] = wet / cells;
+  }
+}
+
 enum status ice_create(struct sim *sim, void *state)
 {
   struct ice      *ice = state;
@@ -207,7 +231,7 @@ enum status ice_create(struct sim *sim, void *state)
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
   fill_cells(sim, ice);
-  if (c) TRY(ice_mark_extent(sim, 0));
+  if (c) mark_extent(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
   classify_faces(sim, ice);
   weigh_cells(sim, ice, false);

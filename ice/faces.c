@@ -48,31 +48,6 @@ double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int ax
   return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].pressure, x, t);
 }
 
-enum status ice_mark_extent(struct sim *sim, double dt)
-{
-  (void)dt;
-  const struct ice      *ice = ice_of(sim);
-  const struct coupling *c = coupling_of(sim);
-  const struct grid     *g = &sim->grid;
-  struct box             nodes = grid_nodes(g);
-  long                   offset[8];
-  int                    around = grid_node_offsets(g, -1, offset);
-  FOR_BOX(g, nodes, n)
-  {
-    int    place[3], cells = 0;
-    double wet = 0;
-    for (int i = 0; i < around; i++) {
-      bool inside = true;
-      grid_place(g, n - offset[i], place);
-      for (int d = 0; d < g->dim; d++) inside = inside && (g->periodic[d] || (place[d] >= 0 && place[d] < g->n[d]));
-      cells += inside;
-      if (inside) wet += ice->wet_cc[n - offset[i]];
-    }
-    c->fluid_fill_nc[n] = wet / cells;
-  }
-  return OK;
-}
-
 /* density from the carried pressure, row by row; how far mass and pressure disagree */
 enum status ice_update_properties(struct sim *sim, double dt)
 {

@@ -19,8 +19,6 @@ static const struct field fields[] = {
 };
 
 static const struct stage stages[] = {
-    {"ice.mark_extent", SLOT_fluid_extent, "wet_cc", "fluid_fill_nc", "4.1", "only when there is a skeleton", skeleton,
-     ice_mark_extent, NULL},
     {"ice.update_properties", SLOT_volume_fractions, "P_cc mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1", "always",
      NULL, ice_update_properties, NULL},
     {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2",

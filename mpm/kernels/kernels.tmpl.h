@@ -128,6 +128,20 @@ static inline void tile_add(struct tile *t, const struct stencil *s, const doubl
     }
 }
 
+/* the same for values alone, most scatters */
+static inline void tile_add_values(struct tile *t, const struct stencil *s, const double *A0)
+{
+  for (int k = 0; k < N1_Z; k++)
+    for (int j = 0; j < N1; j++) {
+      double wjk = s->w[1][j] * s->w[2][k];
+      double(*row)[LANES] = t->record + tile_index(t, s->first[0], s->first[1] + j, s->first[2] + k);
+      for (int i = 0; i < N1; i++) {
+        double w = wjk * s->w[0][i];
+        SIMD for (int q = 0; q < LANES; q++) row[i][q] += w * A0[q];
+      }
+    }
+}
+
 /* sums over the nodes of a point: S0 = sum w u, R[a] = sum w r_a u, D[a] = sum dw/dx_a u */
 static inline void tile_gather(const struct tile *t, const struct stencil *s, double *S0, double R[DIM][LANES],
                                double D[DIM][LANES])
@@ -254,6 +268,20 @@ static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, cons
   for (long p = run->begin; p < run->end; p++) g2p_point(kg, a, &t, p);
 }
 
+/* scalars of point p, and whether any has a gradient */
+static inline bool scatter_record(const struct scatter_args *a, long p, double *A0, double A[DIM][LANES])
+{
+  double weight = a->weight ? a->weight[p] : 1;
+  bool   sloped = false;
+  for (int q = 0; q < a->n; q++) {
+    A0[q] = weight * (a->value[q] ? a->value[q][p] : 1);
+    if (!a->gradient[q]) continue;
+    sloped = true;
+    for (int e = 0; e < DIM; e++) A[e][q] = weight * a->gradient[q][p * DIM + e];
+  }
+  return sloped;
+}
+
 static void scatter(const struct kernel_grid *kg, const struct kernel_run *run, const struct scatter_args *a)
 {
   struct tile    t;
@@ -261,16 +289,16 @@ static void scatter(const struct kernel_grid *kg, const struct kernel_run *run, 
   double         A0[LANES] = {0}, A[DIM][LANES] = {{0}}, G[DIM][LANES] = {{0}};
   tile_open(&t, kg, run);
   for (long p = run->begin; p < run->end; p++) {
-    double weight = a->weight ? a->weight[p] : 1;
     stencil_at(kg, a->x + p * DIM, &s);
-    for (int q = 0; q < a->n; q++) {
-      A0[q] = weight * (a->value[q] ? a->value[q][p] : 1);
-      for (int e = 0; e < DIM && a->gradient[q]; e++) A[e][q] = weight * a->gradient[q][p * DIM + e];
-    }
-    tile_add(&t, &s, A0, A, G);
+    if (scatter_record(a, p, A0, A))
+      tile_add(&t, &s, A0, A, G);
+    else
+      tile_add_values(&t, &s, A0);
   }
-  FOR_TILE(&t, &kg->g, node, r)
-  for (int q = 0; q < a->n; q++) a->node[q][node] += (a->factor[q] != 0 ? a->factor[q] : 1) * t.record[r][q];
+  for (int q = 0; q < a->n; q++) {
+    double factor = a->factor[q] != 0 ? a->factor[q] : 1;
+    FOR_TILE(&t, &kg->g, node, r) a->node[q][node] += factor * t.record[r][q];
+  }
 }
 
 static void gather(const struct kernel_grid *kg, const struct kernel_run *run, const struct gather_args *a)
