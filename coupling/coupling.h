@@ -11,7 +11,6 @@ struct coupling {
 #undef FIELD
   double permeability, diameter; /* m2, m: of the only porous material; several media have fields */
   bool   several_media;
-  bool   volumes_known; /* a held skeleton is measured once */
 };
 
 extern const struct module module_coupling;

@@ -10,6 +10,9 @@
 
 static void clear(const struct grid *g, double *field) { memset(field, 0, (size_t)g->size * sizeof *field); }
 
+/* a held skeleton is measured in the first step only */
+static bool known(const struct sim *sim) { return sim->step > 0 && !mpm_solid_moves(sim->scene); }
+
 /* grains and skeleton volumes of the points, gathered at nodes */
 static void gather_volumes(struct sim *sim, struct coupling *c)
 {
@@ -27,7 +30,7 @@ enum status coupling_gather_volumes(struct sim *sim, double dt)
 {
   (void)dt;
   struct coupling *c = coupling_of(sim);
-  if (c->volumes_known) return OK;
+  if (known(sim)) return OK;
   gather_volumes(sim, c);
   return OK;
 }
@@ -38,7 +41,7 @@ enum status coupling_gather_media(struct sim *sim, double dt)
   (void)dt;
   struct coupling  *c = coupling_of(sim);
   const struct mpm *m = mpm_of(sim);
-  if (c->volumes_known) return OK;
+  if (known(sim)) return OK;
   clear(&sim->grid, c->conductance_nc);
   clear(&sim->grid, c->fineness_nc);
   FOR_RUNS(m->points, &sim->grid, run, group)
@@ -122,11 +125,10 @@ enum status coupling_fill_cells(struct sim *sim, double dt)
 {
   (void)dt;
   struct coupling *c = coupling_of(sim);
-  if (c->volumes_known) return OK;
+  if (known(sim)) return OK;
   node_fractions(sim, c);
   cell_fractions(sim, c);
   for (int axis = 0; axis < sim->grid.dim; axis++) face_fractions(sim, c, axis);
-  c->volumes_known = !mpm_solid_moves(sim->scene);
   return OK;
 }
 

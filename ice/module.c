@@ -37,8 +37,8 @@ static const struct stage stages[] = {
      "only when a solid moves", moving, ice_move_defect, NULL},
     {"ice.update_cells", SLOT_cells, "u_fc u_old_fc carried_fc mass_cc vel_cc", "mass_cc vel_cc beyond_fc", "4.6",
      "always", NULL, ice_update_cells, NULL},
-    {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6", "only when a solid moves",
-     moving, ice_push_solid, NULL},
+    {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
+     "only when a solid moves", moving, ice_push_solid, NULL},
 };
 
 static const struct param params[] = {

@@ -35,22 +35,23 @@ static const struct field fields[] = {
 #define POINT_STATE "x_p vel_p mass_p volume_p stress_p"
 
 static const struct stage stages[] = {
-    {"mpm.sort_points", SLOT_sort, "x_p", "x_p", "3.1", "only when a solid moves", mpm_solid_moves, mpm_sort_points, NULL},
+    {"mpm.sort_points", SLOT_sort, "x_p", "x_p", "3.1", "only when a solid moves", mpm_solid_moves, mpm_sort_points,
+     NULL},
     {"mpm.points_to_nodes", SLOT_points_to_nodes, POINT_STATE " affine_p", "mass_nc mom_nc force_nc", "3.1",
      "only when a solid moves, APIC or AFLIP", moves_affine, mpm_points_to_nodes, NULL},
     {"mpm.points_to_nodes_plain", SLOT_points_to_nodes, POINT_STATE, "mass_nc mom_nc force_nc", "3.1",
      "only when a solid moves, PIC or FLIP", moves_plain, mpm_points_to_nodes, NULL},
-    {"mpm.load_surfaces", SLOT_points_to_nodes, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads", loaded,
-     mpm_load_surfaces, NULL},
-    {"mpm.fold_nodes", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.2", "only when a solid moves",
-     mpm_solid_moves, mpm_fold_nodes, NULL},
-    {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves", mpm_solid_moves,
-     mpm_advance_nodes, NULL},
+    {"mpm.load_surfaces", SLOT_points_to_nodes, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads",
+     loaded, mpm_load_surfaces, NULL},
+    {"mpm.fold_nodes", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.2",
+     "only when a solid moves", mpm_solid_moves, mpm_fold_nodes, NULL},
+    {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
+     mpm_solid_moves, mpm_advance_nodes, NULL},
     {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p",
      "3.1", "only when a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
     {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
-     "x_p vel_p displacement_p gradv_p x_m", "3.1", "only when a solid moves, with loads or tracers", marked, mpm_nodes_to_points,
-     NULL},
+     "x_p vel_p displacement_p gradv_p x_m", "3.1", "only when a solid moves, with loads or tracers", marked,
+     mpm_nodes_to_points, NULL},
     {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
     {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3",
@@ -110,9 +111,9 @@ static void measure_motion(const struct sim *sim, const struct mpm *m, long p, s
   l->v[LEDGER_kinetic_solid] += 0.5 * mass * square;
 }
 
-/* Velocities live half a step before positions and stresses (kick, then drift). Energies are all counted at the time of the
- * velocities: from elastic and potential energy half a step of their rate is taken back, else the sum would swing by
- * omega dt/2. */
+/* Velocities live half a step before positions and stresses (kick, then drift). Energies are all counted at the time of
+ * the velocities: from elastic and potential energy half a step of their rate is taken back, else the sum would swing
+ * by omega dt/2. */
 static double half_step_power(const struct sim *sim, const struct mpm *m, const double gravity[3], long p)
 {
   int    dim = sim->grid.dim;
