@@ -11,6 +11,13 @@ enum where { AT_NODE, AT_CELL, AT_FACE, AT_SOLID, AT_WATER, AT_MARKER };
  */
 enum field_kind { STATE, SCRATCH };
 
+/* Whether scratch is filled with NaN before every step: a stage that reads what this step has not written shows. */
+#ifdef MPMICE_POISON
+enum { FIELD_POISON = 1 };
+#else
+enum { FIELD_POISON = 0 };
+#endif
+
 /* components: a number, or one that depends on the dimension */
 enum { VECTOR = -1, MATRIX = -2, SYMMETRIC = 6 };
 

@@ -220,6 +220,7 @@ static enum status step(struct run *r, bool *event)
   sim->dt_limit = limit / sim->scene->numerics.dt_factor;
   dt = events_step(&r->events, sim->t, limit, event);
   sim->dt = dt;
+  sim_poison(sim);
   TRY(run_stages(r, dt));
   count_step(r, dt, by);
   sim->t = *event ? r->events.event[r->events.next].t : sim->t + dt;

@@ -39,6 +39,8 @@ enum status sim_count_points(const struct scene *scene, const struct plan *plan,
                              int groups[N_SETS]) MUST_CHECK;
 /** Smallest time step limit of the planned stages and numerics.dt_max, s; *by: its stage's name. */
 double sim_dt_limit(const struct sim *sim, const struct plan *plan, const char **by);
+/** Fills every scratch field with NaN in debug builds, before a step. */
+void sim_poison(struct sim *sim);
 /** What is in the run now. */
 void sim_measure(const struct sim *sim, struct ledger *ledger);
 /** Bytes of all fields. */

@@ -12,19 +12,21 @@ static size_t field_length(const struct sim *sim, const struct field *f)
   size_t n = (size_t)field_components(f, sim->grid.dim);
   switch (f->at) {
   case AT_NODE:
-  case AT_CELL: return n * (size_t)sim->grid.size;
-  case AT_FACE: return n * (size_t)(sim->grid.size * sim->grid.dim);
-  case AT_SOLID: return n * (size_t)(sim->points[SET_SOLID] ? sim->points[SET_SOLID]->n : 0);
-  case AT_WATER: return n * (size_t)(sim->points[SET_WATER] ? sim->points[SET_WATER]->n : 0);
-  case AT_MARKER: return n * (size_t)sim->n_markers;
+  case AT_CELL:
+    return n * (size_t)sim->grid.size;
+  case AT_FACE:
+    return n * (size_t)(sim->grid.size * sim->grid.dim);
+  case AT_SOLID:
+    return n * (size_t)(sim->points[SET_SOLID] ? sim->points[SET_SOLID]->n : 0);
+  case AT_WATER:
+    return n * (size_t)(sim->points[SET_WATER] ? sim->points[SET_WATER]->n : 0);
+  case AT_MARKER:
+    return n * (size_t)sim->n_markers;
   }
   return 0;
 }
 
-static double **field_pointer(const struct field *f, void *state)
-{
-  return (double **)((char *)state + f->offset);
-}
+static double **field_pointer(const struct field *f, void *state) { return (double **)((char *)state + f->offset); }
 
 static enum status create_states(const struct plan *plan, struct sim *sim)
 {
@@ -83,7 +85,8 @@ size_t sim_field_bytes(const struct scene *scene, const struct plan *plan)
   }
   for (int i = 0; i < plan->n_modules; i++)
     for (int f = 0; f < plan->modules[i]->n_fields; f++)
-      if (plan_uses(plan, plan->modules[i]->fields[f].name)) bytes += sizeof(double) * field_length(&sim, &plan->modules[i]->fields[f]);
+      if (plan_uses(plan, plan->modules[i]->fields[f].name))
+        bytes += sizeof(double) * field_length(&sim, &plan->modules[i]->fields[f]);
   return bytes;
 }
 
@@ -123,6 +126,17 @@ void sim_destroy(struct sim **out)
   memory_free(&sim->states);
   for (int s = 0; s < N_SETS; s++) points_destroy(&sim->points[s]);
   memory_free(out);
+}
+
+void sim_poison(struct sim *sim)
+{
+  for (int i = 0; i < sim->n_modules && FIELD_POISON; i++)
+    for (int f = 0; f < sim->modules[i]->n_fields; f++) {
+      const struct field *field = &sim->modules[i]->fields[f];
+      double             *values = *field_pointer(field, sim->states[i]);
+      if (field->kind != SCRATCH || !values) continue;
+      for (size_t q = 0; q < field_length(sim, field); q++) values[q] = NAN;
+    }
 }
 
 double sim_dt_limit(const struct sim *sim, const struct plan *plan, const char **by)

@@ -62,6 +62,7 @@ static inline double scene_step_to(struct scene_run *run, double dt, const char 
   bool        done = false;
   sim->dt = fmin(dt, limit);
   sim->dt_limit = limit / sim->scene->numerics.dt_factor;
+  sim_poison(sim);
   for (int i = 0; i < run->plan.n_stages && !done; i++) {
     must(run->plan.stages[i]->run(sim, sim->dt));
     done = last && strcmp(run->plan.stages[i]->name, last) == 0;

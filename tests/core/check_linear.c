@@ -121,6 +121,7 @@ static void create(const struct kind *kind, enum linear_method method, struct sy
   fill_exact(s);
   multiply(s, s->exact, s->b);
   for (long c = 0; c < s->g.size; c++) s->scale = fmax(s->scale, fabs(s->b[c]));
+  for (long c = 0; c < s->g.size; c++) s->x[c] = NAN; /* what a solve must not look at */
   must(linear_create(&s->g, method, &s->linear));
 }
 
