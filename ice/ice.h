@@ -62,7 +62,7 @@ double ice_face_density(const struct ice *ice, long low, long high);
 
 /** Velocity of the fluid at a face from its wet cells: mean of their momentum over what the face holds, so that a
  * steady flux through a change of porosity stays what it is. */
-double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
+double      ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
 enum status ice_update_properties(struct sim *sim, double dt);
 enum status ice_predict_faces(struct sim *sim, double dt);
 enum status ice_predict_solid(struct sim *sim, double dt);

@@ -102,7 +102,7 @@ double mpm_basis_step(const struct sim *sim)
 double mpm_stress_dt(const struct sim *sim)
 {
   const struct mpm *m = mpm_of(sim);
-  double            h = sim->grid.h, wave = sim->scene->numerics.dt_factor * mpm_basis_step(sim) * h / m->now.wave_speed;
+  double h = sim->grid.h, wave = sim->scene->numerics.dt_factor * mpm_basis_step(sim) * h / m->now.wave_speed;
   return fmin(wave, m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
 }
 
