@@ -45,12 +45,12 @@ static inline void fold_axis(const struct kernel_grid *kg, int axis, int first, 
     d[2] -= d[0];
     w[0] = d[0] = 0;
   }
-  if (kg->modified[2 * axis + 1] && high == N1 - 2) {
-    w[N1 - 2] += 2 * w[N1 - 1];
-    w[N1 - 3] -= w[N1 - 1];
-    d[N1 - 2] += 2 * d[N1 - 1];
-    d[N1 - 3] -= d[N1 - 1];
-    w[N1 - 1] = d[N1 - 1] = 0;
+  if (kg->modified[2 * axis + 1] && high > 0 && high < N1 - 1) { /* N1 - 2, or on the wall itself one less */
+    w[high] += 2 * w[high + 1];
+    w[high - 1] -= w[high + 1];
+    d[high] += 2 * d[high + 1];
+    d[high - 1] -= d[high + 1];
+    w[high + 1] = d[high + 1] = 0;
   }
 }
 

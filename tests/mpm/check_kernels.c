@@ -1,0 +1,579 @@
+/* The loops between points and nodes, for every dimension and basis: what must hold exactly. */
+#include "mpm/kernels/kernels.h"
+
+#include "mpm/mpm.h"
+#include "tests/scene_run.h"
+
+#define VARIANT(dim, basis) {dim, #basis},
+static const struct {
+  int         dim;
+  const char *name;
+} variants[] = {
+#include "mpm/kernels/variants.def"
+};
+#undef VARIANT
+enum { VARIANTS = sizeof variants / sizeof *variants, N = 600, BOTH_WALLS = 2 };
+
+/* a grid, a cloud of points away from the walls or up to them, and their arrays */
+struct bench {
+  struct kernel_grid    kg;
+  const struct kernels *k;
+  struct points        *points;
+  int                   dim;
+  double               *x, *vel, *affine, *mass, *volume, *stress; /* of points */
+  double               *mass_nc, *mom_nc, *force_nc, *vel_nc;
+};
+
+static const struct side_condition walls[SIDES]; /* SIDE_SLIP everywhere */
+
+static double next_random(unsigned *seed)
+{
+  *seed = *seed * 1664525u + 1013904223u;
+  return *seed / 4294967296.0;
+}
+
+static enum basis basis_of(int variant)
+{
+  const char *const words[] = {"linear", "gimp", "quadratic", "cubic"};
+  int               b = 0;
+  while (strcmp(words[b], variants[variant].name)) b++;
+  return (enum basis)b;
+}
+
+static void create_grid(int variant, int wall_basis, struct bench *b)
+{
+  const double          min[3] = {-0.4, 0.2, 1};
+  const int             n[3] = {19, 11, 9};
+  const bool            periodic[3] = {false, false, false};
+  const struct numerics numerics = {.wall_basis = wall_basis, .points_per_axis = {2, 2, 2}};
+  struct grid           g;
+  *b = (struct bench){.dim = variants[variant].dim};
+  grid_create(b->dim, min, n, 0.1, periodic, &g);
+  kernel_grid_create(&g, &numerics, walls, &b->kg);
+  b->k = kernels_find(b->dim, basis_of(variant));
+  ck_assert_ptr_nonnull(b->k);
+}
+
+/* points at least `away` cells from the walls */
+static void create(int variant, int wall_basis, double away, struct bench *b)
+{
+  unsigned seed = 11;
+  create_grid(variant, wall_basis, b);
+  const struct grid *g = &b->kg.g;
+  int                dim = b->dim;
+  double           **of_points[] = {&b->x, &b->vel, &b->affine, &b->mass, &b->volume, &b->stress};
+  double           **of_nodes[] = {&b->mass_nc, &b->mom_nc, &b->force_nc, &b->vel_nc};
+  for (int i = 0; i < 6; i++) must(NEW(of_points[i], 9 * N));
+  for (int i = 0; i < 4; i++) must(NEW(of_nodes[i], 3 * g->size));
+  must(points_create(g, N, 2, 9, &b->points));
+  for (long p = 0; p < N; p++) {
+    b->points->group[p] = (unsigned char)(p % 2);
+    b->mass[p] = 1 + next_random(&seed);
+    b->volume[p] = 1e-3 * (1 + next_random(&seed));
+    for (int d = 0; d < dim; d++) {
+      b->x[p * dim + d] = g->min[d] + g->h * (away + (g->n[d] - 2 * away) * next_random(&seed));
+      b->vel[p * dim + d] = next_random(&seed) - 0.5;
+    }
+    for (int q = 0; q < dim * dim; q++) b->affine[p * dim * dim + q] = next_random(&seed) - 0.5;
+    for (int q = 0; q < 6; q++) b->stress[p * 6 + q] = next_random(&seed) - 0.5;
+  }
+  must(points_sort(g, b->points, b->x));
+  points_permute(b->points, dim, b->x);
+  points_sorted(b->points);
+}
+
+static void destroy(struct bench *b)
+{
+  double **arrays[] = {&b->x,      &b->vel,     &b->affine, &b->mass,     &b->volume,
+                       &b->stress, &b->mass_nc, &b->mom_nc, &b->force_nc, &b->vel_nc};
+  for (int i = 0; i < 10; i++) memory_free(arrays[i]);
+  points_destroy(&b->points);
+}
+
+static void p2g(struct bench *b, bool affine)
+{
+  const struct p2g_args args = {.x = b->x,
+                                .vel = b->vel,
+                                .affine = affine ? b->affine : NULL,
+                                .mass = b->mass,
+                                .volume = b->volume,
+                                .stress = b->stress,
+                                .mass_nc = b->mass_nc,
+                                .mom_nc = b->mom_nc,
+                                .force_nc = b->force_nc};
+  FOR_RUNS(b->points, &b->kg.g, run, group) b->k->p2g(&b->kg, &run, &args);
+}
+
+static void gather(struct bench *b, const double *node, double *value, double *gradient)
+{
+  const struct gather_args args = {.n = 1, .x = b->x, .node = {node}, .value = {value}, .gradient = {gradient}};
+  FOR_RUNS(b->points, &b->kg.g, run, group) b->k->gather(&b->kg, &run, &args);
+}
+
+/* ---- weights ---- */
+
+START_TEST(weights_sum_to_one)
+{
+  for (int wall_basis = 0; wall_basis < BOTH_WALLS; wall_basis++) {
+    struct bench b;
+    create(_i, wall_basis, 0, &b);
+    for (long p = 0; p < N; p++) {
+      long   node[MAX_SUPPORT];
+      double w[MAX_SUPPORT], slope[MAX_SUPPORT][3], sum = 0, total[3] = {0};
+      b.k->weights(&b.kg, b.x + p * b.dim, node, w, slope);
+      for (int q = 0; q < b.k->n_support; q++) {
+        sum += w[q];
+        for (int d = 0; d < 3; d++) total[d] += slope[q][d];
+      }
+      ck_assert_double_eq_tol(sum, 1, 1e-14);
+      for (int d = 0; d < b.dim; d++) ck_assert_double_eq_tol(total[d], 0, 1e-12);
+    }
+    destroy(&b);
+  }
+}
+END_TEST
+
+/* weight of one node as seen from x; 0 where it is not among the nodes */
+static double weight_of(const struct bench *b, const double *x, long which, double slope[3])
+{
+  long   node[MAX_SUPPORT];
+  double w[MAX_SUPPORT], slopes[MAX_SUPPORT][3];
+  b->k->weights(&b->kg, x, node, w, slopes);
+  for (int d = 0; d < 3; d++) slope[d] = 0;
+  for (int q = 0; q < b->k->n_support; q++)
+    if (node[q] == which) {
+      memcpy(slope, slopes[q], 3 * sizeof *slope);
+      return w[q];
+    }
+  return 0;
+}
+
+START_TEST(gradients_are_differences_of_weights)
+{
+  for (int wall_basis = 0; wall_basis < BOTH_WALLS; wall_basis++) {
+    struct bench b;
+    double       e = 1e-6, least = 0.02, worst = 0;
+    int          met = 0;
+    create(_i, wall_basis, 0.01, &b);
+    for (long p = 0; p < N; p++) {
+      long   node[MAX_SUPPORT];
+      double w[MAX_SUPPORT], slope[MAX_SUPPORT][3], x[3], none[3];
+      bool   kink = false;
+      for (int d = 0; d < b.dim; d++) {
+        double s = (b.x[p * b.dim + d] - b.kg.g.min[d]) / b.kg.g.h;
+        kink = kink || fabs(4 * s - round(4 * s)) < least; /* pieces of all bases end at quarters of cells */
+      }
+      if (kink) continue;
+      b.k->weights(&b.kg, b.x + p * b.dim, node, w, slope);
+      for (int q = 0; q < b.k->n_support; q++)
+        for (int d = 0; d < b.dim; d++) {
+          memcpy(x, b.x + p * b.dim, (size_t)b.dim * sizeof *x);
+          x[d] += e;
+          double up = weight_of(&b, x, node[q], none);
+          x[d] -= 2 * e;
+          double down = weight_of(&b, x, node[q], none);
+          worst = fmax(worst, fabs(slope[q][d] - (up - down) / (2 * e)));
+        }
+      met++;
+    }
+    ck_assert_double_lt(worst, 1e-6);
+    ck_assert_int_gt(met, 100);
+    destroy(&b);
+  }
+}
+END_TEST
+
+/* weights, and but for the linear basis their gradients, do not jump where a piece ends */
+START_TEST(weights_are_smooth_across_cells)
+{
+  for (int wall_basis = 0; wall_basis < BOTH_WALLS; wall_basis++) {
+    struct bench b;
+    double       e = 1e-10;
+    create_grid(_i, wall_basis, &b);
+    bool smooth = b.k->basis != BASIS_LINEAR;
+    for (int quarter = 1; quarter < 4 * b.kg.g.n[0]; quarter++)
+      for (int i = -1; i <= b.kg.g.n[0] + 1; i++) {
+        double x[3] = {0, 0.731, 1.33}, before[3], after[3];
+        long   node = grid_at(&b.kg.g, i, 5, b.dim == 3 ? 3 : 0);
+        x[0] = b.kg.g.min[0] + 0.25 * b.kg.g.h * quarter - e;
+        double low = weight_of(&b, x, node, before);
+        x[0] += 2 * e;
+        double high = weight_of(&b, x, node, after);
+        ck_assert_double_eq_tol(low, high, 1e-7);
+        for (int d = 0; d < b.dim && smooth; d++) ck_assert_double_eq_tol(before[d], after[d], 1e-5);
+      }
+  }
+}
+END_TEST
+
+/* a point on the upper wall is treated as one on the lower */
+START_TEST(both_walls_are_alike)
+{
+  for (int wall_basis = 0; wall_basis < BOTH_WALLS; wall_basis++) {
+    struct bench b;
+    create_grid(_i, wall_basis, &b);
+    for (int i = -1; i <= 2; i++) {
+      const struct grid *g = &b.kg.g;
+      double             x[3] = {g->min[0], 0.75, 1.25}, low_slope[3], high_slope[3];
+      double             low = weight_of(&b, x, grid_at(g, i, 5, b.dim == 3 ? 2 : 0), low_slope);
+      x[0] = g->min[0] + g->n[0] * g->h;
+      double high = weight_of(&b, x, grid_at(g, g->n[0] - i, 5, b.dim == 3 ? 2 : 0), high_slope);
+      ck_assert_double_eq_tol(low, high, 1e-13);
+      if (b.k->basis != BASIS_LINEAR) ck_assert_double_eq_tol(low_slope[0], -high_slope[0], 1e-12);
+    }
+  }
+}
+END_TEST
+
+/* ---- nodes to points ---- */
+
+static double linear_field(const double *x, int dim) { return 3 + 2 * x[0] - 5 * x[1] + (dim == 3 ? 7 * x[2] : 0); }
+
+static void reproduces(int variant, int wall_basis, double away)
+{
+  static const double slope[3] = {2, -5, 7};
+  struct bench        b;
+  create(variant, wall_basis, away, &b);
+  struct box all = grid_all(&b.kg.g);
+  FOR_BOX_SERIAL(&b.kg.g, all, c)
+  {
+    double x[3];
+    int    place[3];
+    bool   ghost = false;
+    grid_node(&b.kg.g, c, x);
+    grid_place(&b.kg.g, c, place);
+    for (int d = 0; d < b.dim; d++) ghost = ghost || place[d] < 0 || place[d] > b.kg.g.n[d];
+    b.mass_nc[c] = ghost && wall_basis == WALL_MODIFIED ? 1e9 : linear_field(x, b.dim);
+  }
+  gather(&b, b.mass_nc, b.mass, b.affine);
+  for (long p = 0; p < N; p++) {
+    ck_assert_double_eq_tol(b.mass[p], linear_field(b.x + p * b.dim, b.dim), 1e-12);
+    for (int d = 0; d < b.dim; d++) ck_assert_double_eq_tol(b.affine[p * b.dim + d], slope[d], 1e-11);
+  }
+  destroy(&b);
+}
+
+START_TEST(linear_fields_inside) { reproduces(_i, WALL_MIRRORED, 1.5); }
+END_TEST
+/* ghosts hold nonsense: modified functions do not look at them */
+START_TEST(linear_fields_up_to_modified_walls) { reproduces(_i, WALL_MODIFIED, 0); }
+END_TEST
+
+/* components of vectors, gradients as rows of matrices, several scalars at once */
+START_TEST(gather_strides)
+{
+  struct bench b;
+  unsigned     seed = 2;
+  create(_i, WALL_MIRRORED, 0, &b);
+  int dim = b.dim;
+  for (long q = 0; q < dim * b.kg.g.size; q++) b.mom_nc[q] = next_random(&seed);
+  struct gather_args args = {.n = dim, .x = b.x, .gradient_stride = dim * dim};
+  for (int d = 0; d < dim; d++) {
+    args.node[d] = b.mom_nc + d;
+    args.stride[d] = dim;
+    args.value[d] = b.vel + (long)d * N;
+    args.gradient[d] = b.affine + d * dim;
+  }
+  FOR_RUNS(b.points, &b.kg.g, run, group) b.k->gather(&b.kg, &run, &args);
+  for (int d = 0; d < dim; d++) {
+    for (long c = 0; c < b.kg.g.size; c++) b.mass_nc[c] = b.mom_nc[c * dim + d];
+    gather(&b, b.mass_nc, b.mass, b.stress);
+    for (long p = 0; p < N; p++) {
+      ck_assert_double_eq(b.mass[p], b.vel[(long)d * N + p]);
+      for (int e = 0; e < dim; e++) ck_assert_double_eq(b.stress[p * dim + e], b.affine[(p * dim + d) * dim + e]);
+    }
+  }
+  destroy(&b);
+}
+END_TEST
+
+/* ---- points to nodes ---- */
+
+static double sum_of(const struct bench *b, const double *field, int n, int component)
+{
+  double sum = 0;
+  for (long c = 0; c < b->kg.g.size; c++) sum += field[c * n + component];
+  return sum;
+}
+
+/* sum of x_a f_b - x_b f_a over nodes */
+static double moment_of(const struct bench *b, const double *field, int a, int c)
+{
+  double sum = 0, x[3];
+  for (long i = 0; i < b->kg.g.size; i++) {
+    grid_node(&b->kg.g, i, x);
+    sum += x[a] * field[i * b->dim + c] - x[c] * field[i * b->dim + a];
+  }
+  return sum;
+}
+
+START_TEST(mass_and_momentum_are_kept)
+{
+  for (int affine = 0; affine < 2; affine++) {
+    struct bench b;
+    create(_i, WALL_MIRRORED, 0, &b);
+    double mass = 0, mom[3] = {0};
+    for (long p = 0; p < N; p++) {
+      mass += b.mass[p];
+      for (int d = 0; d < b.dim; d++) mom[d] += b.mass[p] * b.vel[p * b.dim + d];
+    }
+    p2g(&b, affine);
+    ck_assert_double_eq_tol(sum_of(&b, b.mass_nc, 1, 0), mass, 1e-11);
+    for (int d = 0; d < b.dim; d++) {
+      ck_assert_double_eq_tol(sum_of(&b, b.mom_nc, b.dim, d), mom[d], 1e-11);
+      ck_assert_double_eq_tol(sum_of(&b, b.force_nc, b.dim, d), 0, 1e-12);
+    }
+    destroy(&b);
+  }
+}
+END_TEST
+
+/* second moment of the weights of a point along an axis, m2 */
+static double second_moment(const struct bench *b, const double *x, int axis)
+{
+  long   node[MAX_SUPPORT];
+  double w[MAX_SUPPORT], at[3], sum = 0;
+  b->k->weights(&b->kg, x, node, w, NULL);
+  for (int q = 0; q < b->k->n_support; q++) {
+    grid_node(&b->kg.g, node[q], at);
+    sum += w[q] * (at[axis] - x[axis]) * (at[axis] - x[axis]);
+  }
+  return sum;
+}
+
+/* spin in the matrix C counts with the second moments; symmetric stress turns nothing */
+START_TEST(angular_momentum_is_kept)
+{
+  struct bench b;
+  create(_i, WALL_MIRRORED, 2, &b);
+  p2g(&b, true);
+  for (int a = 0; a < b.dim; a++)
+    for (int c = a + 1; c < b.dim; c++) {
+      double exact = 0;
+      for (long p = 0; p < N; p++) {
+        const double *x = b.x + p * b.dim, *v = b.vel + p * b.dim, *C = b.affine + p * b.dim * b.dim;
+        exact += b.mass[p] * (x[a] * v[c] - x[c] * v[a] + second_moment(&b, x, a) * C[c * b.dim + a] -
+                              second_moment(&b, x, c) * C[a * b.dim + c]);
+      }
+      ck_assert_double_eq_tol(moment_of(&b, b.mom_nc, a, c), exact, 1e-11);
+      ck_assert_double_eq_tol(moment_of(&b, b.force_nc, a, c), 0, 1e-12);
+    }
+  destroy(&b);
+}
+END_TEST
+
+/* D of T(28), where it is a constant */
+START_TEST(the_moment_of_splines)
+{
+  struct bench b;
+  create(_i, WALL_MIRRORED, 2, &b);
+  for (long p = 0; p < N && b.k->moment > 0; p++)
+    for (int d = 0; d < b.dim; d++)
+      ck_assert_double_eq_tol(second_moment(&b, b.x + p * b.dim, d), b.k->moment * b.kg.g.h * b.kg.g.h, 1e-15);
+  destroy(&b);
+}
+END_TEST
+
+/* the tiles of blocks against plain sums of weights, with points as far out of their block as they may go */
+START_TEST(tiles_are_plain_sums)
+{
+  struct bench b;
+  unsigned     seed = 8;
+  create(_i, WALL_MIRRORED, 0, &b);
+  const struct grid *g = &b.kg.g;
+  double            *plain;
+  must(NEW(&plain, g->size));
+  for (long q = 0; q < N * b.dim; q++) {
+    int d = (int)(q % b.dim);
+    b.x[q] += 0.999 * g->h * (2 * next_random(&seed) - 1);
+    b.x[q] = fmin(fmax(b.x[q], g->min[d]), g->min[d] + g->n[d] * g->h * (1 - 1e-12));
+  }
+  ck_assert(!points_need_sort(g, b.points, b.x));
+  struct scatter_args args = {
+      .n = 2, .x = b.x, .weight = b.mass, .value = {b.volume}, .factor = {0, -2}, .node = {b.mass_nc, b.vel_nc}};
+  FOR_RUNS(b.points, g, run, group) b.k->scatter(&b.kg, &run, &args);
+  for (long p = 0; p < N; p++) {
+    long   node[MAX_SUPPORT];
+    double w[MAX_SUPPORT];
+    b.k->weights(&b.kg, b.x + p * b.dim, node, w, NULL);
+    for (int q = 0; q < b.k->n_support; q++) plain[node[q]] += w[q] * b.mass[p] * b.volume[p];
+  }
+  for (long c = 0; c < g->size; c++) ck_assert_double_eq_tol(b.mass_nc[c], plain[c], 1e-15);
+  double mass = 0;
+  for (long p = 0; p < N; p++) mass += b.mass[p];
+  ck_assert_double_eq_tol(sum_of(&b, b.vel_nc, 1, 0), -2 * mass, 1e-10);
+  memory_free(&plain);
+  destroy(&b);
+}
+END_TEST
+
+/* with a point's gradient, scatter puts the linear field itself on the nodes */
+START_TEST(scatter_carries_gradients)
+{
+  static const double slope[3] = {2, -5, 7};
+  struct bench        b;
+  create(_i, WALL_MIRRORED, 0, &b);
+  for (long p = 0; p < N; p++) {
+    b.volume[p] = linear_field(b.x + p * b.dim, b.dim);
+    for (int d = 0; d < b.dim; d++) b.vel[p * b.dim + d] = slope[d];
+  }
+  struct scatter_args args = {.n = 2,
+                              .x = b.x,
+                              .weight = b.mass,
+                              .value = {NULL, b.volume},
+                              .gradient = {NULL, b.vel},
+                              .node = {b.mass_nc, b.vel_nc}};
+  FOR_RUNS(b.points, &b.kg.g, run, group) b.k->scatter(&b.kg, &run, &args);
+  for (long c = 0; c < b.kg.g.size; c++) {
+    double x[3];
+    if (!(b.mass_nc[c] > 1e-6)) continue;
+    grid_node(&b.kg.g, c, x);
+    ck_assert_double_eq_tol(b.vel_nc[c] / b.mass_nc[c], linear_field(x, b.dim), 1e-11);
+  }
+  destroy(&b);
+}
+END_TEST
+
+/* ---- there and back ---- */
+
+/* a field with constant gradient L on points: velocity and C */
+static void set_motion(struct bench *b, double L[3][3])
+{
+  for (long p = 0; p < N; p++)
+    for (int d = 0; d < b->dim; d++) {
+      b->vel[p * b->dim + d] = d + 1;
+      for (int e = 0; e < b->dim; e++) {
+        b->vel[p * b->dim + d] += L[d][e] * b->x[p * b->dim + e];
+        b->affine[(p * b->dim + d) * b->dim + e] = L[d][e];
+      }
+    }
+}
+
+static void nodal_velocity(struct bench *b)
+{
+  for (long c = 0; c < b->kg.g.size; c++)
+    for (int d = 0; d < b->dim; d++)
+      b->vel_nc[c * b->dim + d] = b->mass_nc[c] > 0 ? b->mom_nc[c * b->dim + d] / b->mass_nc[c] : 0;
+}
+
+/* affine motions, rotation among them, come back from the nodes as they went: APIC */
+START_TEST(affine_motion_survives)
+{
+  double rotation[3][3] = {{0, -3, 1}, {3, 0, -2}, {-1, 2, 0}}, any[3][3] = {{1, -3, 2}, {0.5, 2, -2}, {-1, 4, -1}};
+  for (int turn = 0; turn < 2; turn++) {
+    struct bench b;
+    double       vel[3 * N], x[3 * N], gradv[9 * N], displacement[3 * N] = {0};
+    create(_i, WALL_MIRRORED, 2, &b);
+    set_motion(&b, turn ? rotation : any);
+    memcpy(vel, b.vel, sizeof vel);
+    memcpy(x, b.x, sizeof x);
+    p2g(&b, true);
+    nodal_velocity(&b);
+    memset(b.affine, 0, 9 * N * sizeof(double));
+    const struct g2p_args args = {.dt = 1e-3,
+                                  .beta = 1,
+                                  .vel_old_nc = b.vel_nc,
+                                  .vel_nc = b.vel_nc,
+                                  .x = b.x,
+                                  .displacement = displacement,
+                                  .vel = b.vel,
+                                  .affine = b.affine,
+                                  .gradv = gradv};
+    FOR_RUNS(b.points, &b.kg.g, run, group) b.k->g2p(&b.kg, &run, &args);
+    for (long q = 0; q < N * b.dim; q++) {
+      ck_assert_double_eq_tol(b.vel[q], vel[q], 1e-12);
+      ck_assert_double_eq_tol(b.x[q], x[q] + 1e-3 * vel[q], 1e-14);
+      ck_assert_double_eq_tol(displacement[q], 1e-3 * vel[q], 1e-15);
+      for (int e = 0; e < b.dim; e++) {
+        double exact = turn ? rotation[q % b.dim][e] : any[q % b.dim][e];
+        ck_assert_double_eq_tol(b.affine[q * b.dim + e], exact, 1e-10);
+        ck_assert_double_eq_tol(gradv[q * b.dim + e], exact, 1e-10);
+      }
+    }
+    destroy(&b);
+  }
+}
+END_TEST
+
+/* v = beta sum w v_new + (1 - beta) (v + sum w (v_new - v_old)): T(30) */
+START_TEST(blends)
+{
+  for (int half = 0; half < 3; half++) {
+    struct bench b;
+    double       beta = 0.5 * half, new_p[3 * N], old_p[3 * N], vel[3 * N], *old_nc, *component;
+    unsigned     seed = 4;
+    create(_i, WALL_MIRRORED, 0, &b);
+    must(NEW(&old_nc, 3 * b.kg.g.size));
+    must(NEW(&component, b.kg.g.size));
+    for (long q = 0; q < b.dim * b.kg.g.size; q++) {
+      b.vel_nc[q] = next_random(&seed);
+      old_nc[q] = next_random(&seed);
+    }
+    for (int d = 0; d < b.dim; d++) {
+      for (long c = 0; c < b.kg.g.size; c++) component[c] = b.vel_nc[c * b.dim + d];
+      gather(&b, component, new_p + (long)d * N, NULL);
+      for (long c = 0; c < b.kg.g.size; c++) component[c] = old_nc[c * b.dim + d];
+      gather(&b, component, old_p + (long)d * N, NULL);
+    }
+    memcpy(vel, b.vel, sizeof vel);
+    const struct g2p_args args = {
+        .dt = 0, .beta = beta, .vel_old_nc = old_nc, .vel_nc = b.vel_nc, .x = b.x, .vel = b.vel};
+    FOR_RUNS(b.points, &b.kg.g, run, group) b.k->g2p(&b.kg, &run, &args);
+    for (long p = 0; p < N; p++)
+      for (int d = 0; d < b.dim; d++) {
+        double to = new_p[(long)d * N + p], from = old_p[(long)d * N + p];
+        double exact = beta * to + (1 - beta) * (vel[p * b.dim + d] + to - from);
+        ck_assert_double_eq_tol(b.vel[p * b.dim + d], exact, 1e-13);
+      }
+    memory_free(&old_nc);
+    memory_free(&component);
+    destroy(&b);
+  }
+}
+END_TEST
+
+/* uniform stress pushes no node inside a body that fills the lattice: sum V grad w = 0 */
+START_TEST(uniform_pressure_pushes_nothing_inside)
+{
+  struct bench b;
+  create_grid(_i, WALL_MIRRORED, &b);
+  const struct grid *g = &b.kg.g;
+  double            *force, gauss[2] = {0.5 - 0.5 / sqrt(3.0), 0.5 + 0.5 / sqrt(3.0)};
+  must(NEW(&force, 3 * g->size));
+  int lower[3] = {6, 2, b.dim == 3 ? 1 : 0}, n = 48; /* six cells per axis around node (9, 5, 4) */
+  for (long i = 0; i < (long)n * n * (b.dim == 3 ? n : 1); i++) {
+    long   node[MAX_SUPPORT], at[3] = {i % n, i / n % n, i / n / n};
+    double w[MAX_SUPPORT], slope[MAX_SUPPORT][3], x[3];
+    for (int d = 0; d < 3; d++) x[d] = g->min[d] + g->h * (lower[d] + 0.25 * ((double)(at[d] / 2) + gauss[at[d] % 2]));
+    b.k->weights(&b.kg, x, node, w, slope);
+    for (int q = 0; q < b.k->n_support; q++)
+      for (int d = 0; d < b.dim; d++) force[node[q] * b.dim + d] += slope[q][d] * pow(g->h / 8, b.dim);
+  }
+  for (int d = 0; d < b.dim; d++)
+    ck_assert_double_eq_tol(force[grid_at(g, 9, 5, b.dim == 3 ? 4 : 0) * b.dim + d], 0, 1e-15);
+  memory_free(&force);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *suite = suite_create("kernels");
+  TCase *tcase = tcase_create("every dimension and basis");
+  tcase_add_loop_test(tcase, weights_sum_to_one, 0, VARIANTS);
+  tcase_add_loop_test(tcase, gradients_are_differences_of_weights, 0, VARIANTS);
+  tcase_add_loop_test(tcase, weights_are_smooth_across_cells, 0, VARIANTS);
+  tcase_add_loop_test(tcase, both_walls_are_alike, 0, VARIANTS);
+  tcase_add_loop_test(tcase, linear_fields_inside, 0, VARIANTS);
+  tcase_add_loop_test(tcase, linear_fields_up_to_modified_walls, 0, VARIANTS);
+  tcase_add_loop_test(tcase, gather_strides, 0, VARIANTS);
+  tcase_add_loop_test(tcase, mass_and_momentum_are_kept, 0, VARIANTS);
+  tcase_add_loop_test(tcase, angular_momentum_is_kept, 0, VARIANTS);
+  tcase_add_loop_test(tcase, the_moment_of_splines, 0, VARIANTS);
+  tcase_add_loop_test(tcase, tiles_are_plain_sums, 0, VARIANTS);
+  tcase_add_loop_test(tcase, scatter_carries_gradients, 0, VARIANTS);
+  tcase_add_loop_test(tcase, affine_motion_survives, 0, VARIANTS);
+  tcase_add_loop_test(tcase, blends, 0, VARIANTS);
+  tcase_add_loop_test(tcase, uniform_pressure_pushes_nothing_inside, 0, VARIANTS);
+  suite_add_tcase(suite, tcase);
+  return run_suite(suite);
+}
