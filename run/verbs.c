@@ -19,6 +19,11 @@ const struct verb verbs[] = {
      run_scene},
     {"resume", "DIR", "--threads --until --time --quiet", "goes on from the last checkpoint of a run",
      "The result is bitwise that of the uninterrupted run.\n", run_resume},
+    {"compare", "SCENE", "--fluid --set --out --threads --until --quick --quiet --force",
+     "runs a scene on several fluid paths and compares them",
+     "Without --fluid A,B,... on every path. The folder (default out/<scene>-compare) holds a run per path and "
+     "compare.json.\n",
+     verb_compare},
     {"check", "SCENE", "--fluid --set --quick", "validates a scene and prints what would run",
      "Every variant is validated too. Per fluid path: points, memory, time step, steps. Writes nothing.\n", verb_check},
     {"explain", "SCENE", "--fluid --set --quick", "prints the plan: stages in order, and those left out",

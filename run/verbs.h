@@ -9,6 +9,8 @@
 enum status verb_check(const struct run_options *options) MUST_CHECK;
 /** Prints the plan. */
 enum status verb_explain(const struct run_options *options) MUST_CHECK;
+/** The scene on several fluid paths: a table, and compare.json. */
+enum status verb_compare(const struct run_options *options) MUST_CHECK;
 /** Shipped cases, fluid paths, laws, references, stages, parameters. */
 enum status verb_list(const struct run_options *options) MUST_CHECK;
 /** The JSON Schema of a scene. */
