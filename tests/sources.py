@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every section that a stage, a law or a comment in the code names must be a section of docs/.
+"""Every section that a stage, a law or a comment in the code names must be a section of docs/, and docs/parameters.md what
+the program prints.
 
 usage: sources.py PROGRAM ROOT
 
@@ -59,6 +60,9 @@ def main(program, root):
                 count["comments"] = count.get("comments", 0) + 1
                 faults += [f"{file.relative_to(root)}: no section {number} in docs/theory{page}.md"
                            for number in numbers.split(", ") if number not in (twopoint if page else theory)]
+    made = subprocess.run([program, "list", "--markdown"], check=True, capture_output=True, text=True).stdout
+    if made != (root / "docs/parameters.md").read_text():
+        faults.append("docs/parameters.md is old; make it anew: mpmice list --markdown > docs/parameters.md")
     empty = [what for what in ("stages", "skeleton laws", "equations of state", "drag laws", "references", "comments")
              if not count.get(what)]
     faults += [f"no {what} found: has the output of `mpmice list` changed?" for what in empty]
