@@ -27,7 +27,15 @@ class Theory:
         modulus = young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
         self.softening = 1 + modulus * get("porosity") / get("bulk_modulus")
         self.height, self.load = get("height"), get("load")
-        self.time = self.height**2 * get("density") * get("gravity") / (get("permeability") * modulus)  # s: T_v = 1
+        weight = get("density") * get("gravity")
+        k = get("permeability") or self.kozeny_carman(get) * weight / get("viscosity")
+        self.time = self.height**2 * weight / (k * modulus)  # s: T_v = 1
+
+    @staticmethod
+    def kozeny_carman(get):
+        """m2, from the grains"""
+        n = get("porosity")
+        return get("grain_diameter") ** 2 * n**3 / (get("kozeny_factor") * (1 - n) ** 2)
 
     def pressure(self, height, T_v):
         odd = 2 * np.arange(200) + 1

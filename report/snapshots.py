@@ -24,10 +24,12 @@ def scene(run):
 
 
 def value(scene_, key):
-    """A number of a scene; "=key.path" stands for the number found there."""
+    """A number of a scene; "=key.path" stands for the number found there, "infinite" for an infinite one."""
     here = scene_
     for word in key.split("."):
         here = here[word]
+    if here == "infinite":
+        return np.inf
     return value(scene_, here[1:]) if isinstance(here, str) and here.startswith("=") else here
 
 

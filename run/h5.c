@@ -263,7 +263,8 @@ static void list_size(hid_t set, FILE *out)
 static herr_t list_object(hid_t root, const char *name, const H5O_info_t *info, void *data)
 {
   struct listing *l = data;
-  hid_t           object = H5Oopen(root, name, H5P_DEFAULT);
+  if (strcmp(name, ".") == 0) return 0;
+  hid_t object = H5Oopen(root, name, H5P_DEFAULT);
   l->of_array = info->type == H5O_TYPE_DATASET;
   fprintf(l->out, "%s%s%s", l->of_array ? "  " : "", name, l->of_array ? ":" : "/\n");
   if (l->of_array) list_size(object, l->out);

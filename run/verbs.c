@@ -24,6 +24,13 @@ const struct verb verbs[] = {
      "Without --fluid A,B,... on every path. The folder (default out/<scene>-compare) holds a run per path and "
      "compare.json.\n",
      verb_compare},
+    {"info", "FILE", NULL, "prints what is in a file of an output folder",
+     "Snapshots and checkpoints: arrays, sizes, units. gauges.csv: columns and their ranges. .json: the tree.\n",
+     verb_info},
+    {"plot", "DIR", NULL, "makes the standard pictures of a run, or of all runs below a folder",
+     "gauges.png and fields.png beside each run; isochrones.png where the scene names Terzaghi's theory. Needs Python "
+     "with\nh5py and matplotlib.\n",
+     verb_plot},
     {"check", "SCENE", "--fluid --set --quick", "validates a scene and prints what would run",
      "Every variant is validated too. Per fluid path: points, memory, time step, steps. Writes nothing.\n", verb_check},
     {"explain", "SCENE", "--fluid --set --quick", "prints the plan: stages in order, and those left out",

@@ -11,6 +11,10 @@ enum status verb_check(const struct run_options *options) MUST_CHECK;
 enum status verb_explain(const struct run_options *options) MUST_CHECK;
 /** The scene on several fluid paths: a table, and compare.json. */
 enum status verb_compare(const struct run_options *options) MUST_CHECK;
+/** What is in a file of an output folder. */
+enum status verb_info(const struct run_options *options) MUST_CHECK;
+/** The standard pictures of the runs at or below a folder. */
+enum status verb_plot(const struct run_options *options) MUST_CHECK;
 /** Shipped cases, fluid paths, laws, references, stages, parameters. */
 enum status verb_list(const struct run_options *options) MUST_CHECK;
 /** The JSON Schema of a scene. */
