@@ -70,6 +70,20 @@ long points_block_of_colour(const struct points *p, int dim, int colour, long i)
   return i == 0 ? block : -1;
 }
 
+void points_wrap(const struct grid *g, long n, double *x)
+{
+  int dim = g->dim;
+  for (int d = 0; d < dim; d++) {
+    if (!g->periodic[d]) continue;
+    double length = g->n[d] * g->h;
+    PARALLEL_FOR
+    for (long q = 0; q < n; q++) {
+      double turns = floor((x[q * dim + d] - g->min[d]) / length);
+      if (turns != 0) x[q * dim + d] -= turns * length;
+    }
+  }
+}
+
 bool points_need_sort(const struct grid *g, const struct points *p, const double *x)
 {
   int    need = 0, dim = g->dim;

@@ -34,6 +34,8 @@ void points_block_corner(const struct points *p, long block, int corner[3]);
 /** Number of colours (4 or 8) and the blocks of one: block index of the i-th block of `colour`, -1 past the last. */
 int  points_colours(const struct grid *g);
 long points_block_of_colour(const struct points *p, int dim, int colour, long i);
+/** Points that left a periodic axis come back at its other end. x [n][dim] m. */
+void points_wrap(const struct grid *g, long n, double *x);
 /** Whether some point has left its block by more than the margin. x [n][dim] m. */
 bool points_need_sort(const struct grid *g, const struct points *p, const double *x);
 /** Computes the new order; then points_permute every array. Points outside the grid: ERR_DIVERGED. */

@@ -26,17 +26,24 @@ static double parity(const struct side_condition *side, int axis, int n, int com
   return component == axis || stuck ? -1 : 1;
 }
 
+/* place along a periodic axis that a ghost plane is the image of; -1: not a ghost */
+static int image_place(const struct grid *g, int d, int place)
+{
+  int n = g->n[d];
+  return place >= 0 && place < n ? -1 : (place % n + n) % n;
+}
+
 static void fold_periodic(const struct grid *g, int d, int n, double *field)
 {
   struct box b = wall_plane(g, 2 * d);
-  long       turn = g->n[d] * g->stride[d], step = g->stride[d];
   FOR_BOX_SERIAL(g, b, c)
-  for (int q = 0; q < n; q++) {
-    long at = c * n + q, up = turn * n, one = step * n;
-    field[at] += field[at + up];
-    field[at + one] += field[at + up + one];
-    field[at + up - one] += field[at - one];
-    field[at + up] = field[at + up + one] = field[at - one] = 0;
+  for (int k = -GHOST; k <= g->n[d] + GHOST; k++) {
+    int  image = image_place(g, d, k);
+    long from = c + k * g->stride[d], to = c + image * g->stride[d];
+    for (int q = 0; q < n && image >= 0; q++) {
+      field[to * n + q] += field[from * n + q];
+      field[from * n + q] = 0;
+    }
   }
 }
 
@@ -63,12 +70,11 @@ void boundary_fold(const struct kernel_grid *kg, const struct side_condition *si
 static void ghosts_periodic(const struct grid *g, int d, int n, double *field)
 {
   struct box b = wall_plane(g, 2 * d);
-  long       turn = g->n[d] * g->stride[d], step = g->stride[d];
   FOR_BOX_SERIAL(g, b, c)
-  for (int q = 0; q < n; q++) {
-    field[(c + turn) * n + q] = field[c * n + q];
-    field[(c + turn + step) * n + q] = field[(c + step) * n + q];
-    field[(c - step) * n + q] = field[(c + turn - step) * n + q];
+  for (int k = -GHOST; k <= g->n[d] + GHOST; k++) {
+    int  image = image_place(g, d, k);
+    long to = c + k * g->stride[d], from = c + image * g->stride[d];
+    for (int q = 0; q < n && image >= 0; q++) field[to * n + q] = field[from * n + q];
   }
 }
 

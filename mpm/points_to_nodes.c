@@ -11,6 +11,7 @@ enum status mpm_sort_points(struct sim *sim, double dt)
 {
   (void)dt;
   struct mpm *m = mpm_of(sim);
+  points_wrap(&sim->grid, m->points->n, m->x_p);
   if (!points_need_sort(&sim->grid, m->points, m->x_p)) return OK;
   return mpm_sort_now(sim, m);
 }
@@ -79,6 +80,7 @@ enum status mpm_fold_nodes(struct sim *sim, double dt)
   boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
   boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->force_nc);
   velocities(sim, m, m->vel_nc);
+  boundary_ghosts(&m->kernel_grid, sides, 1, sim->t, m->mass_nc); /* markers and faces look for the solid there */
   return OK;
 }
 
