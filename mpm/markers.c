@@ -1,6 +1,8 @@
 /* Markers: points of loaded surfaces and tracers, which ride on the solid's nodal velocity. theory 3.3 */
 #include "mpm/stages.h"
 
+#include "core/tensor.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -19,43 +21,58 @@ static void marker_force(const struct sim *sim, const struct mpm *m, const struc
  * velocity is not the solid's */
 static const double light_node = 1e-3;
 
-/* centre and spread of the weights along an axis; dx [n]: distances of the nodes from that centre */
-static double axis_spread(const struct grid *g, const long *node, const double *w, int n, int axis, double *centre,
-                          double *dx)
+/* M^-1 offset, M [9] the second moments of weights about their centre. An axis along which they hardly spread says
+ * nothing; axes that nearly depend on each other are taken one by one. */
+static void solve_moments(const double M[9], const double offset[3], double h, double a[3])
 {
-  double spread = 0, x[3];
-  *centre = 0;
+  double own[9] = {0}, inverse[9];
+  bool   wide[3];
+  for (int i = 0; i < 3; i++) wide[i] = M[4 * i] > 0.01 * h * h;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) own[3 * i + j] = wide[i] && wide[j] ? M[3 * i + j] : i == j;
+  if (tensor_determinant(own) < 0.01 * own[0] * own[4] * own[8])
+    for (int q = 0; q < 9; q++) own[q] *= q % 4 == 0;
+  tensor_inverse(own, inverse);
+  for (int i = 0; i < 3; i++) {
+    a[i] = 0;
+    for (int j = 0; j < 3 && wide[i]; j++) a[i] += wide[j] ? inverse[3 * i + j] * offset[j] : 0;
+  }
+}
+
+/* tilts weights w [n] with sum one so that their centre lies at x */
+static void centre_weights(const struct grid *g, const double x[3], int n, const long *node, double *w)
+{
+  double r[MAX_SUPPORT][3], centre[3] = {0}, M[9] = {0}, offset[3], a[3];
   for (int q = 0; q < n; q++) {
-    grid_node(g, node[q], x);
-    dx[q] = x[axis];
-    *centre += w[q] * x[axis];
+    grid_node(g, node[q], r[q]);
+    for (int d = 0; d < 3; d++) centre[d] += w[q] * r[q][d];
   }
   for (int q = 0; q < n; q++) {
-    dx[q] -= *centre;
-    spread += w[q] * dx[q] * dx[q];
+    for (int d = 0; d < 3; d++) r[q][d] -= centre[d];
+    for (int e = 0; e < 9; e++) M[e] += w[q] * r[q][e / 3] * r[q][e % 3];
   }
-  return spread;
+  for (int d = 0; d < 3; d++) offset[d] = x[d] - centre[d];
+  solve_moments(M, offset, g->h, a);
+  for (int q = 0; q < n; q++) w[q] *= 1 + r[q][0] * a[0] + r[q][1] * a[1] + r[q][2] * a[2];
 }
 
 /* Nodes of a marker and its weights over those that hold enough of the solid. Their sum stays one and their centre at
  * the marker: beyond a free surface nodes are missing, and without the second a load would act too deep, a velocity be
- * too low. */
+ * too low. On a periodic axis a marker's place counts its turns, its weights do not. */
 static void marker_weights(const struct sim *sim, const struct mpm *m, long i, long *node, double *w)
 {
-  const double *x = m->x_m + i * sim->grid.dim;
-  int           n = m->kernels->n_support;
-  double        heaviest = 0, kept = 0, share[MAX_SUPPORT], dx[MAX_SUPPORT], h2 = sim->grid.h * sim->grid.h;
+  int    dim = sim->grid.dim, n = m->kernels->n_support;
+  double x[3] = {0}, heaviest = 0, kept = 0;
+  memcpy(x, m->x_m + i * dim, (size_t)dim * sizeof *x);
+  points_wrap(&sim->grid, 1, x);
   m->kernels->weights(&m->kernel_grid, x, node, w, NULL);
-  for (int q = 0; q < n; q++) heaviest = fmax(heaviest, m->mass_nc[node[q]]);
+  for (int q = 0; q < n; q++) heaviest = fmax(heaviest, w[q] != 0 ? m->mass_nc[node[q]] : 0);
   for (int q = 0; q < n; q++) {
     if (m->mass_nc[node[q]] <= light_node * heaviest) w[q] = 0;
     kept += w[q];
   }
-  for (int q = 0; q < n; q++) share[q] = w[q] = kept > 0 ? w[q] / kept : 0;
-  for (int axis = 0; axis < sim->grid.dim; axis++) {
-    double centre, spread = axis_spread(&sim->grid, node, share, n, axis, &centre, dx);
-    for (int q = 0; q < n && spread > 0.01 * h2; q++) w[q] += share[q] * dx[q] * (x[axis] - centre) / spread;
-  }
+  for (int q = 0; q < n; q++) w[q] = kept > 0 ? w[q] / kept : 0;
+  centre_weights(&sim->grid, x, n, node, w);
 }
 
 /* velocity of the solid at a marker */
@@ -83,6 +100,7 @@ enum status mpm_load_surfaces(struct sim *sim, double dt)
       for (int q = 0; q < m->kernels->n_support; q++)
         for (int d = 0; d < dim; d++) m->force_nc[node[q] * dim + d] += w[q] * force[d];
     }
+  boundary_fold(&m->kernel_grid, sim->scene->solid_side, dim, m->force_nc);
   return OK;
 }
 

@@ -18,7 +18,7 @@ bool mpm_transfer_affine(const struct scene *scene)
   return scene->numerics.transfer == TRANSFER_APIC || scene->numerics.transfer == TRANSFER_AFLIP;
 }
 
-static bool needed(const struct scene *sc) { return sc->n_solids > 0; }
+static bool needed(const struct scene *sc) { return mpm_solid_moves(sc) || (sc->n_solids > 0 && sc->fluid.present); }
 static bool moves_affine(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_transfer_affine(sc); }
 static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && !mpm_transfer_affine(sc); }
 static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
@@ -41,10 +41,10 @@ static const struct stage stages[] = {
      "only when a solid moves, APIC or AFLIP", moves_affine, mpm_points_to_nodes, NULL},
     {"mpm.points_to_nodes_plain", SLOT_points_to_nodes, POINT_STATE, "mass_nc mom_nc force_nc", "3.1",
      "only when a solid moves, PIC or FLIP", moves_plain, mpm_points_to_nodes, NULL},
-    {"mpm.load_surfaces", SLOT_points_to_nodes, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads",
-     loaded, mpm_load_surfaces, NULL},
     {"mpm.fold_nodes", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.2",
      "only when a solid moves", mpm_solid_moves, mpm_fold_nodes, NULL},
+    {"mpm.load_surfaces", SLOT_fold, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads", loaded,
+     mpm_load_surfaces, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
      mpm_solid_moves, mpm_advance_nodes, NULL},
     {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p",
