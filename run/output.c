@@ -150,6 +150,15 @@ static long largest_field(const struct sim *sim)
 
 /* ---- creation ---- */
 
+/* A run without values at cells writes no cells. */
+static bool writes_cells(const struct sim *sim)
+{
+  struct field_view v;
+  for (int cursor = 0; fields_next(sim, &cursor, &v);)
+    if (v.field->at == AT_CELL && v.field->output) return true;
+  return false;
+}
+
 static enum status create_in(const struct sim *sim, const char *folder, struct output_writer *o)
 {
   const struct scene *scene = sim->scene;
@@ -157,7 +166,7 @@ static enum status create_in(const struct sim *sim, const char *folder, struct o
   o->capacity = (long)ceil(scene->time_end / output_interval(scene)) + scene->output.n_times + 4;
   TRY(NEW(&o->times, o->capacity));
   TRY(NEW(&o->values, largest_field(sim)));
-  TRY(mesh_of_cells(&sim->grid, &o->mesh[0]));
+  if (writes_cells(sim)) TRY(mesh_of_cells(&sim->grid, &o->mesh[0]));
   TRY(mesh_of_points(sim->points[SET_SOLID], &o->mesh[1]));
   return mesh_of_points(sim->points[SET_WATER], &o->mesh[2]);
 }
@@ -339,7 +348,8 @@ static enum status read_time(const struct output_writer *o, long number, double 
 {
   char      path[LONGEST_PATH];
   struct h5 h;
-  TRY(snapshot_path(o, written[0], number, path));
+  int       set = o->mesh[0].x ? 0 : o->mesh[1].x ? 1 : 2;
+  TRY(snapshot_path(o, written[set], number, path));
   TRY(h5_open(path, &h));
   enum status s = h5_get(&h, "mpmice", "time", H5_DOUBLE, 1, t);
   h5_close(&h);

@@ -34,7 +34,7 @@ START_TEST(readable_elsewhere)
   fake_create(_i, &r);
   write_two(&r, &o);
   ck_assert_int_eq(script("run/read_output.py", r.folder, _i), 0);
-  int opened = script("paraview.py", r.folder, _i);
+  int opened = script("open_in_paraview.py", r.folder, _i);
   if (opened == 77) printf("neither ParaView nor VTK here: its part of the test is left out\n");
   ck_assert_msg(opened == 0 || opened == 77, "VTK reads something else than was written");
   output_destroy(&o);
@@ -86,6 +86,29 @@ START_TEST(says_when_it_cannot_write)
 }
 END_TEST
 
+/* Nothing to show at cells, no file of cells; a resume then asks the other sets for the times. */
+START_TEST(no_cells_without_values)
+{
+  struct fake_run       r;
+  struct output_writer *o;
+  char                  path[LONGEST_PATH];
+  fake_create(2, &r);
+  memory_free(&r.state.P_cc);
+  memory_free(&r.state.vel_cc);
+  write_two(&r, &o);
+  output_destroy(&o);
+  fake_ok(files_path(r.folder, "fields.cells.00000.hdf", path));
+  ck_assert(!files_exists(path));
+  fake_ok(files_path(r.folder, "fields.solid.00000.hdf", path));
+  ck_assert(files_exists(path));
+  fake_ok(output_create(&r.sim, r.folder, &o));
+  fake_ok(output_resume(o, 2));
+  ck_assert_int_eq(output_count(o), 2);
+  output_destroy(&o);
+  fake_destroy(&r);
+}
+END_TEST
+
 /* A set may lose points while it runs. */
 START_TEST(fewer_points)
 {
@@ -95,7 +118,7 @@ START_TEST(fewer_points)
   fake_ok(output_create(&r.sim, r.folder, &o));
   r.sim.points[SET_WATER]->n -= 7;
   fake_ok(output_write(o, &r.sim));
-  int opened = script("paraview.py", r.folder, 2);
+  int opened = script("open_in_paraview.py", r.folder, 2);
   ck_assert(opened == 0 || opened == 77);
   output_destroy(&o);
   fake_destroy(&r);
@@ -110,6 +133,7 @@ int main(void)
   tcase_add_loop_test(tests, readable_elsewhere, 2, 4);
   tcase_add_test(tests, resume_forgets_later_snapshots);
   tcase_add_test(tests, says_when_it_cannot_write);
+  tcase_add_test(tests, no_cells_without_values);
   tcase_add_test(tests, fewer_points);
   suite_add_tcase(suite, tests);
   SRunner *runner = srunner_create(suite);

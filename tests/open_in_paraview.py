@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Opens every fields.<set>.hdf.series of an output folder as ParaView does and compares what comes out with h5py.
 
-usage: paraview.py FOLDER
+usage: open_in_paraview.py FOLDER
 Uses pvbatch where there is one (the series itself, as a user opens it), else VTK's reader file by file.
 Exit status: 0 all equal, 1 a difference, 77 neither ParaView nor VTK installed.
 """
@@ -18,7 +18,7 @@ import numpy as np
 
 def expect(condition, what):
     if not condition:
-        print(f"paraview.py: {what}", file=sys.stderr)
+        print(f"open_in_paraview.py: {what}", file=sys.stderr)
         sys.exit(1)
 
 
@@ -111,7 +111,7 @@ def main():
     if has_vtk():
         check(folder, with_vtk, "VTK")
     elif not pvbatch:
-        print("paraview.py: neither pvbatch nor VTK is installed", file=sys.stderr)
+        print("open_in_paraview.py: neither pvbatch nor VTK is installed", file=sys.stderr)
         sys.exit(77)
 
 
