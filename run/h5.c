@@ -18,10 +18,14 @@ static hid_t file_type(enum h5_type type)
   return type == H5_DOUBLE ? H5T_IEEE_F64LE : type == H5_LONG ? H5T_STD_I64LE : H5T_STD_U8LE;
 }
 
-/* The reason nearest to the system, such as "No space left on device", is the first one walking upward. */
+/* The reason nearest to the system is the first one walking upward; of a long one only what the system said, such as
+ * "No space left on device". */
 static herr_t take_reason(unsigned n, const H5E_error2_t *error, void *reason)
 {
-  if (n == 0) snprintf(reason, TEXT_LENGTH, "%s", error->desc ? error->desc : "unknown");
+  static const char before[] = "error message = '";
+  const char       *desc = error->desc ? error->desc : "unknown", *said = strstr(desc, before);
+  if (said) desc = said + strlen(before);
+  if (n == 0) snprintf(reason, TEXT_LENGTH, "%.*s", (int)strcspn(desc, "'\n"), desc);
   return 0;
 }
 
@@ -35,6 +39,7 @@ static enum status fail(enum status code, const struct h5 *h, const char *what, 
 /* Locking off, or a reader could stop a writer. */
 static hid_t access_properties(void)
 {
+  H5dont_atexit(); /* at exit it would trip over a file that a full disk kept it from closing */
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -70,12 +75,14 @@ enum status h5_commit(struct h5 *h)
   return files_commit(h->path);
 }
 
+/* On a full disk the file can only be closed after its room is given back. */
 void h5_abandon(struct h5 *h)
 {
   char made[LONGEST_PATH + 4];
-  h5_close(h);
   name_of_made(h, made);
-  unlink(made);
+  bool emptied = truncate(made, 0) == 0;
+  h5_close(h);
+  if (emptied) unlink(made);
 }
 
 enum status h5_open(const char *path, struct h5 *h)

@@ -303,8 +303,9 @@ static enum status write_series(const struct output_writer *o, enum where at)
   if (!file) return FAIL(ERR_ENVIRONMENT, "%s: cannot be written", made);
   print_series(o, at, file);
   bool bad = ferror(file) != 0;
-  if (fclose(file) != 0 || bad) return FAIL(ERR_ENVIRONMENT, "%s: cannot be written; is the disk full?", made);
-  return files_commit(path);
+  if (fclose(file) == 0 && !bad) return files_commit(path);
+  unlink(made);
+  return FAIL(ERR_ENVIRONMENT, "%s: cannot be written; is the disk full?", path);
 }
 
 /* Snapshots of an earlier run from `number` on would be taken for ours. */

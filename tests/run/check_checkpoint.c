@@ -6,6 +6,10 @@
 #include "run/fields.h"
 #include "run/files.h"
 
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
 static double                       items[] = {3, 1e9 + 1, -0.1};
 static const struct checkpoint_item item[] = {{"counters", 2, items}, {"dt_sum", 1, items + 2}};
 enum { N_ITEMS = sizeof item / sizeof *item };
@@ -121,6 +125,33 @@ START_TEST(previous_survives)
 }
 END_TEST
 
+/* In a child of its own, which must end as usual after the failure: HDF5 would like to close the file once more. */
+START_TEST(full_disk)
+{
+  struct fake_run r;
+  char            path[LONGEST_PATH];
+  int             how;
+  fake_create(2, &r);
+  write_scene(&r, "{}");
+  pid_t child = fork();
+  if (child == 0) {
+    const struct rlimit limit = {20000, RLIM_INFINITY};
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    enum status s = checkpoint_write(r.folder, &r.sim, 0, NULL);
+    exit(s == ERR_ENVIRONMENT && strstr(status_message(), "File too large") && !strchr(status_message(), '\n') ? 0 : 1);
+  }
+  ck_assert_int_eq(waitpid(child, &how, 0), child);
+  ck_assert(WIFEXITED(how));
+  ck_assert_int_eq(WEXITSTATUS(how), 0);
+  fake_ok(files_path(r.folder, "checkpoint.h5", path));
+  ck_assert(!files_exists(path));
+  fake_ok(files_path(r.folder, "checkpoint.h5.tmp", path));
+  ck_assert(!files_exists(path));
+  fake_destroy(&r);
+}
+END_TEST
+
 static void refused(struct fake_run *r, int n_items, const char *word)
 {
   ck_assert_int_eq(checkpoint_read(r->folder, &r->sim, n_items, item), ERR_INPUT);
@@ -162,6 +193,7 @@ int main(void)
   tcase_set_timeout(tests, 60);
   tcase_add_loop_test(tests, comes_back_bitwise, 2, 4);
   tcase_add_test(tests, previous_survives);
+  tcase_add_test(tests, full_disk);
   tcase_add_test(tests, strangers_are_refused);
   suite_add_tcase(suite, tests);
   SRunner *runner = srunner_create(suite);
