@@ -51,7 +51,7 @@ struct run_record {
 
 /** Writes <folder>/summary.json; it appears complete or not at all. */
 enum status summary_write(const char *folder, const struct run_record *record) MUST_CHECK;
-/** The metrics as a table on standard output, and the wall time; nothing when there are none. */
+/** The metrics as a table on standard output; nothing when there are none. */
 void summary_print(const struct run_record *record);
 
 #endif
