@@ -205,11 +205,6 @@ double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim)
   return reader->read(reader, sim);
 }
 
-bool gauge_reader_needs_ledger(const struct gauge_reader *reader)
-{
-  return reader->read == read_ledger || reader->read == read_energy;
-}
-
 /* ---- from the scene's gauge to a reader ---- */
 
 static enum status find_field(const struct sim *sim, const struct gauge *gauge, struct gauge_reader *r)

@@ -35,7 +35,5 @@ enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge
 void        gauge_reader_destroy(struct gauge_reader *reader);
 /** The number now, at the end of a step; NaN where there is nothing to read. */
 double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim);
-/** Whether it reads the ledger. */
-bool gauge_reader_needs_ledger(const struct gauge_reader *reader);
 
 #endif

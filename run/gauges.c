@@ -75,13 +75,6 @@ void gauges_destroy(struct gauges **gauges)
   memory_free(gauges);
 }
 
-bool gauges_need_ledger(const struct gauges *gauges)
-{
-  for (int c = 0; c < gauges->n_columns; c++)
-    if (gauge_reader_needs_ledger(&gauges->readers[c])) return true;
-  return false;
-}
-
 /* ---- the table in memory ---- */
 
 static enum status enlarge(struct gauges *g)

@@ -12,9 +12,8 @@ enum status gauges_create(const struct sim *sim, const char *folder,
                           void (*marker_range)(const struct sim *, const char *name, long *first, long *end),
                           struct gauges **gauges) MUST_CHECK;
 void        gauges_destroy(struct gauges **gauges);
-/** Whether some gauge reads the ledger: sim->ledger must then be measured before a sample. */
-bool gauges_need_ledger(const struct gauges *gauges);
-/** One row at time sim->t. Allocates nothing until there are more samples than the gauge interval announced. */
+/** One row at time sim->t, for which sim->ledger was measured. Allocates nothing until there are more samples than the
+ * gauge interval announced. */
 enum status gauges_sample(struct gauges *gauges, const struct sim *sim) MUST_CHECK;
 /** Brings the file up to date: before a checkpoint and at the end. */
 enum status gauges_flush(struct gauges *gauges) MUST_CHECK;
