@@ -58,8 +58,8 @@ void boundary_ghosts(const struct kernel_grid *kg, const struct side_condition *
 void boundary_velocity(const struct grid *g, const struct side_condition *sides, double t, double *vel_nc);
 /** Nodes that are advanced: owned ones, and one ghost layer behind open sides. */
 struct box boundary_nodes(const struct grid *g, const struct side_condition *sides);
-/** Volume of a node, the folded integral of its weight over the grid, m3: what it would hold if all space were filled.
- */
+/** Volume of a node, m3: the folded sum of its weight over the lattice of points, what it would hold if all space were
+ * filled. */
 double boundary_room(const struct kernel_grid *kg, enum basis basis, long node);
 
 #endif
