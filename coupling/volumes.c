@@ -13,6 +13,14 @@ static void clear(const struct grid *g, double *field) { memset(field, 0, (size_
 /* a held skeleton is measured in the first step only */
 static bool known(const struct sim *sim) { return sim->step > 0 && !mpm_solid_moves(sim->scene); }
 
+/* what points gave goes to owned nodes; ghosts show it: faces on a periodic axis look there */
+static void fold(const struct sim *sim, double *field)
+{
+  const struct kernel_grid *kg = &mpm_of(sim)->kernel_grid;
+  boundary_fold(kg, sim->scene->solid_side, 1, field);
+  boundary_ghosts(kg, sim->scene->solid_side, 1, sim->t, field);
+}
+
 /* grains and skeleton volumes of the points, gathered at nodes */
 static void gather_volumes(struct sim *sim, struct coupling *c)
 {
@@ -22,8 +30,8 @@ static void gather_volumes(struct sim *sim, struct coupling *c)
   clear(&sim->grid, c->solid_nc);
   clear(&sim->grid, c->bulk_nc);
   FOR_RUNS(m->points, &sim->grid, run, group) m->kernels->scatter(&m->kernel_grid, &run, &args);
-  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->solid_nc);
-  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->bulk_nc);
+  fold(sim, c->solid_nc);
+  fold(sim, c->bulk_nc);
 }
 
 enum status coupling_gather_volumes(struct sim *sim, double dt)
@@ -54,8 +62,8 @@ enum status coupling_gather_media(struct sim *sim, double dt)
     args.factor[1] = D > 0 ? 1 / (D * D) : DBL_MIN;
     m->kernels->scatter(&m->kernel_grid, &run, &args);
   }
-  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->conductance_nc);
-  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->fineness_nc);
+  fold(sim, c->conductance_nc);
+  fold(sim, c->fineness_nc);
   return OK;
 }
 

@@ -73,6 +73,7 @@ static void classify_faces(struct sim *sim, struct ice *ice)
   bool               fixed = false;
   for (int axis = 0; axis < g->dim; axis++) {
     struct box faces = grid_faces(g, axis);
+    for (int d = 0; d < g->dim; d++) faces.lo[d] -= g->periodic[d]; /* the nodes of a seam look there too */
     FOR_BOX_SERIAL(g, faces, f)
     {
       enum face_kind kind = classify(sim, ice, axis, f);

@@ -83,6 +83,11 @@ double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis,
   return momentum / (wet * ice->porosity_fc[axis * g->size + f] * ice_face_density(ice, low, f));
 }
 
+void ice_fill_faces(const struct sim *sim, double *field)
+{
+  for (int axis = 0; axis < sim->grid.dim; axis++) grid_fill_periodic(&sim->grid, 1, field + axis * sim->grid.size);
+}
+
 enum status ice_predict_faces(struct sim *sim, double dt)
 {
   struct ice        *ice = ice_of(sim);
@@ -102,6 +107,8 @@ enum status ice_predict_faces(struct sim *sim, double dt)
       ice->u_old_fc[base + f] = ice_mean_velocity(sim, ice, axis, f) + ice->params->memory * ice->beyond_fc[base + f];
     }
   }
+  ice_fill_faces(sim, ice->gradP_fc);
+  ice_fill_faces(sim, ice->s_old_fc);
   return OK;
 }
 
@@ -172,6 +179,7 @@ enum status ice_predict_solid(struct sim *sim, double dt)
   boundary_velocity(&sim->grid, sides, sim->t + dt, ice->vel_star_nc);
   boundary_ghosts(&mpm_of(sim)->kernel_grid, sides, dim, sim->t + dt, ice->vel_star_nc);
   for (int axis = 0; axis < dim; axis++) skeleton_faces(sim, ice, axis);
+  ice_fill_faces(sim, ice->s_old_fc);
   return OK;
 }
 

@@ -54,6 +54,9 @@ static inline bool ice_face_active(enum face_kind kind)
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face);
 /** Pressure beyond a face where there is no wet cell: the side's at time t, or zero at a surface, Pa. */
 double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int axis, long face, double t);
+/** Copies owned values of a face field into the ghosts of periodic axes: the nodes of a seam have faces on both sides.
+ */
+void ice_fill_faces(const struct sim *sim, double *field);
 /** h^(dim-1), m2. */
 double ice_face_area(const struct grid *g);
 /** Mean density of the wet cells of a face, which is the harmonic mean of specific volumes M(45): hydrostatics stay

@@ -33,6 +33,7 @@ static void face_entries(struct sim *sim, struct ice *ice, int axis, double dt)
   struct box         faces = grid_faces(g, axis);
   double             theta = sim->scene->numerics.theta, scale = theta * theta * dt * ice_face_area(g) / g->h;
   long               base = axis * g->size;
+  if (g->periodic[axis] && g->n[axis] == 1) scale = 0; /* both cells of the face are one */
   FOR_BOX(g, faces, i)
   {
     long   q = base + i;
@@ -177,6 +178,7 @@ enum status ice_correct_faces(struct sim *sim, double dt)
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
   for (int axis = 0; axis < g->dim; axis++) correct_axis(sim, ice, axis, dt);
+  ice_fill_faces(sim, ice->s_fc);
   FOR_BOX(g, cells, c) ice->P_cc[c] += ice->wet_cc[c] > 0 ? ice->dP_cc[c] : 0;
   return OK;
 }
