@@ -263,6 +263,17 @@ START_TEST(matrices_replace_each_other)
 }
 END_TEST
 
+/* what lies below the tolerance is not thrown away where it costs nothing to keep: steps add up */
+START_TEST(direct_solves_small_ones_too)
+{
+  struct system s;
+  create(&kinds[0], LINEAR_DIRECT, &s);
+  solve(&s, 2 * s.scale);
+  ck_assert_double_lt(error(&s), 1e-8);
+  destroy(&s);
+}
+END_TEST
+
 START_TEST(nothing_to_do)
 {
   for (int method = LINEAR_HYPRE; method <= LINEAR_DIRECT; method++) {
@@ -334,6 +345,7 @@ int main(void)
   tcase_add_test(tcase, dead_cells_stay_zero);
   tcase_add_test(tcase, singular_projects);
   tcase_add_test(tcase, matrices_replace_each_other);
+  tcase_add_test(tcase, direct_solves_small_ones_too);
   tcase_add_test(tcase, nothing_to_do);
   tcase_add_test(tcase, hypre_falls_back);
   tcase_add_test(tcase, what_cannot_be_solved_is_an_error);

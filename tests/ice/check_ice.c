@@ -57,6 +57,7 @@ static const char *const still[] = {
 };
 enum { STILL = sizeof still / sizeof *still };
 
+/* theta = 1/2 keeps the sound that round-off makes: 1e-16 K/(rho c) = 1.5e-13 m/s a step */
 START_TEST(still_water_stays)
 {
   for (int theta = 0; theta < 2; theta++)
@@ -70,7 +71,7 @@ START_TEST(still_water_stays)
       long              probe = grid_at(&run.sim->grid, 1, 1, 0);
       double            P = ice->P_cc[probe], mass = scene_ledger(&run).v[LEDGER_mass_fluid];
       scene_steps(&run, 100, INFINITY);
-      ck_assert_double_lt(fastest(&run), 1e-12);
+      ck_assert_double_lt(fastest(&run), theta ? 1e-11 : 1e-12);
       ck_assert_double_eq_tol(ice->P_cc[probe], P, 1e-9 * fabs(P));
       ck_assert_double_eq_tol(scene_ledger(&run).v[LEDGER_mass_fluid], mass, 1e-13 * mass);
       scene_close(&run);
