@@ -40,7 +40,7 @@ static const struct stage stages[] = {
      "always with a fluid", NULL, coupling_gather_volumes, NULL},
     {"coupling.gather_media", SLOT_volumes, "x_p volume_p", "conductance_nc fineness_nc", "2.1",
      "only with several porous materials", several_media, coupling_gather_media, NULL},
-    {"coupling.fill_cells", SLOT_volume_fractions, "solid_nc bulk_nc room_nc fluid_fill_nc",
+    {"coupling.fill_cells", SLOT_volume_fractions, "solid_nc bulk_nc room_nc fluid_fill_nc fluid_reach_nc",
      "grains_share_nc fill_nc porosity_cc porosity_fc fill_fc medium_porosity_fc", "2.1",
      "only when the fluid lives in cells", on_faces, coupling_fill_cells, NULL},
     {"coupling.push_solid", SLOT_push_solid, "dmom_nc", "force_nc", "2.4", "only when a solid moves", mpm_solid_moves,

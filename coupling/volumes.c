@@ -78,9 +78,12 @@ static inline double node_mean(const double *q, long at, int n, const long *offs
 /* below this a node holds nothing worth a division */
 static const double least_filled = 1e-9;
 
+static double filled_share(double skeleton, double fluid) { return fmax(least_filled, fmin(1, fmax(skeleton, fluid))); }
+
 /* Grains and skeleton per *filled* room: where soil and water end together at a surface, half of the node's room is
  * void and belongs to neither. Over the whole room the pore water would weigh too much there (1 % of the load is lost
- * per cell of the column). On a periodic axis the last plane copies the first. */
+ * per cell of the column). The grains that functions carry past the surface are replaced by water inside, so that the
+ * weight is whole; the medium has no gap there. On a periodic axis the last plane copies the first. */
 static void node_fractions(struct sim *sim, struct coupling *c)
 {
   const struct mpm  *m = mpm_of(sim);
@@ -88,10 +91,9 @@ static void node_fractions(struct sim *sim, struct coupling *c)
   struct box         nodes = grid_nodes(g);
   FOR_BOX(g, nodes, n)
   {
-    double skeleton = c->bulk_nc[n] / c->room_nc[n],
-           filled = fmax(least_filled, fmin(1, fmax(skeleton, c->fluid_fill_nc[n])));
-    c->grains_share_nc[n] = c->solid_nc[n] / (c->room_nc[n] * filled);
-    c->fill_nc[n] = skeleton / filled;
+    double skeleton = c->bulk_nc[n] / c->room_nc[n];
+    c->grains_share_nc[n] = c->solid_nc[n] / (c->room_nc[n] * filled_share(skeleton, c->fluid_fill_nc[n]));
+    c->fill_nc[n] = skeleton / filled_share(skeleton, c->fluid_reach_nc[n]);
   }
   boundary_ghosts(&m->kernel_grid, sim->scene->solid_side, 1, sim->t, c->grains_share_nc);
   boundary_ghosts(&m->kernel_grid, sim->scene->solid_side, 1, sim->t, c->fill_nc);
@@ -110,6 +112,17 @@ static void cell_fractions(struct sim *sim, struct coupling *c)
   grid_fill_periodic(g, 1, c->porosity_cc);
 }
 
+/* mean over nodes of the grains in the skeleton that fill_nc counts */
+static inline double grains_of_fill(const struct coupling *c, long at, int n, const long *offset)
+{
+  double sum = 0;
+  for (int i = 0; i < n; i++) {
+    long node = at + offset[i];
+    if (c->fill_nc[node] > 0) sum += c->fill_nc[node] * c->solid_nc[node] / c->bulk_nc[node];
+  }
+  return sum / n;
+}
+
 /* the medium's own porosity is grains over skeleton: a half-filled face has half the resistance, not that of a loose
  * soil */
 static void face_fractions(struct sim *sim, struct coupling *c, int axis)
@@ -125,7 +138,7 @@ static void face_fractions(struct sim *sim, struct coupling *c, int axis)
     double grains = node_mean(c->grains_share_nc, f, n, offset), bulk = node_mean(c->fill_nc, f, n, offset);
     porosity[f] = fmax(least_porosity, 1 - grains);
     fill[f] = bulk;
-    medium[f] = bulk > 0 ? fmax(least_porosity, 1 - grains / bulk) : 1;
+    medium[f] = bulk > 0 ? fmax(least_porosity, 1 - grains_of_fill(c, f, n, offset) / bulk) : 1;
   }
 }
 

@@ -218,6 +218,31 @@ static void mark_extent(struct sim *sim)
   }
 }
 
+/* the same by the sums that gather the skeleton: a lattice of points in the wet cells */
+static void mark_reach(struct sim *sim)
+{
+  const struct ice      *ice = ice_of(sim);
+  const struct mpm      *m = mpm_of(sim);
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  const int             *along = sim->scene->numerics.points_per_axis;
+  struct box             cells = grid_cells(g), nodes = grid_nodes(g);
+  double                 volume = mpm_point_volume(sim->scene);
+  int                    points = along[0] * along[1] * (g->dim == 3 ? along[2] : 1);
+  FOR_BOX_SERIAL(g, cells, i)
+  for (int p = 0; p < points && ice->wet_cc[i] > 0; p++) {
+    long   node[MAX_SUPPORT];
+    double w[MAX_SUPPORT], x[3];
+    int    left = p;
+    grid_centre(g, i, x);
+    for (int d = 0; d < g->dim; left /= along[d++]) x[d] += g->h * ((left % along[d] + 0.5) / along[d] - 0.5);
+    m->kernels->weights(&m->kernel_grid, x, node, w, NULL);
+    for (int q = 0; q < m->kernels->n_support; q++) c->fluid_reach_nc[node[q]] += w[q] * volume;
+  }
+  boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->fluid_reach_nc);
+  FOR_BOX_SERIAL(g, nodes, n) c->fluid_reach_nc[n] /= c->room_nc[n];
+}
+
 enum status ice_create(struct sim *sim, void *state)
 {
   struct ice      *ice = state;
@@ -233,6 +258,7 @@ enum status ice_create(struct sim *sim, void *state)
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
   fill_cells(sim, ice);
   if (c) mark_extent(sim);
+  if (c) mark_reach(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
   classify_faces(sim, ice);
   weigh_cells(sim, ice, false);

@@ -23,8 +23,8 @@ static const char *const densities[] = {"numerics.points_per_cell=4", "numerics.
                                         "numerics.points_per_cell=1"};
 
 /* Share of a spline that reaches past the node beyond a surface, from a lattice of n points per cell and axis. There
- * the next nodes inside have that much less skeleton, and by intention water instead: what they hold weighs as much as
- * what fills their room, which keeps the load on the column whole. */
+ * the next nodes inside have that much fewer grains, and water instead: what they hold weighs as much as what fills
+ * their room, which keeps the load on the column whole. */
 static double spline_tail(int basis, int n)
 {
   double sum = 0;
@@ -37,7 +37,7 @@ static double spline_tail(int basis, int n)
 }
 
 /* every wet cell, and every face of one: porosity 0.3, full of skeleton of porosity 0.3; next to the surface at y = top
- * and one cell below but for a share `tail` of the skeleton */
+ * and one cell below grains are short of a share `tail` */
 static void uniform(const struct scene_run *run, double top, double tail)
 {
   const struct coupling *c = coupling_of(run->sim);
@@ -56,7 +56,7 @@ static void uniform(const struct scene_run *run, double top, double tail)
       for (int high = 0; high < 2; high++) {
         long q = d * g->size + i + high * g->stride[d];
         *at = fmax(*at, fabs(c->porosity_fc[q] - 0.3));
-        *at = fmax(*at, 0.7 * fabs(c->fill_fc[q] - 1));
+        medium = fmax(medium, fabs(c->fill_fc[q] - 1));
         medium = fmax(medium, fabs(c->medium_porosity_fc[q] - 0.3));
         met++;
       }
