@@ -29,10 +29,9 @@ void        linear_destroy(struct linear **linear);
 void linear_set_matrix(struct linear *linear, const double *diagonal, const double *coupling, bool singular,
                        const double *active);
 
-/** Solves A x = b from the guess x = 0 until max |b - A x| <= tolerance (the direct solver: exactly, always); b, x
- * [size]. The first solve of a matrix sets it up. A tolerance that was not reached shows in report->residual.
- * ERR_SOLVER: the matrix is not positive definite.
- */
+/** Solves A x = b from the guess x = 0 until max |b - A x| <= tolerance (the direct solver: always, to round-off);
+ * b, x [size]. The first solve of a matrix sets it up. A tolerance that was not reached shows in report->residual.
+ * ERR_SOLVER: the matrix is not positive definite (told by the direct solver). */
 enum status linear_solve(struct linear *linear, double tolerance, double *b, double *x,
                          struct linear_report *report) MUST_CHECK;
 
