@@ -52,7 +52,7 @@ static const struct stage stages[] = {
     {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
      "x_p vel_p displacement_p gradv_p x_m", "3.1", "only when a solid moves, with loads or tracers", marked,
      mpm_nodes_to_points, NULL},
-    {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "mass_nc mom_nc vel_new_nc gradv_p", "3.1",
+    {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "x_p mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
     {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3",
      "only when a solid moves", mpm_solid_moves, mpm_update_stress, mpm_stress_dt},

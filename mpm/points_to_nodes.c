@@ -106,6 +106,7 @@ enum status mpm_remap_momentum(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
   const struct side_condition *sides = sim->scene->solid_side;
+  TRY(mpm_sort_points(sim, dt)); /* they have moved, perhaps too far for their block */
   clear(&sim->grid, 1, m->mass_nc);
   clear(&sim->grid, sim->grid.dim, m->mom_nc);
   gather_points(sim, m, false);
