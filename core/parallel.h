@@ -20,5 +20,7 @@
 
 int  parallel_threads(void);
 void parallel_set_threads(int n);
+/** As many threads as so many points and cells keep busy, all at most. OMP_NUM_THREADS, where it is set, decides. */
+void parallel_choose_threads(long items);
 
 #endif

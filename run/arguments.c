@@ -16,7 +16,7 @@ static const struct {
     [FLUID] = {"--fluid", "PATH", "fluid path, such as ice or twopoint; compare takes several, A,B,..."},
     [SET] = {"--set", "KEY.PATH=VALUE", "overrides one value of the scene; may be given again"},
     [OUT] = {"--out", "DIR", "output folder; default out/<scene>-<path>"},
-    [THREADS] = {"--threads", "N", "number of threads; default all"},
+    [THREADS] = {"--threads", "N", "number of threads; default as many as the scene keeps busy"},
     [UNTIL] = {"--until", "T", "ends at T seconds instead of at time.end"},
     [QUICK] = {"--quick", NULL, "applies the scene's quick overrides"},
     [TIME] = {"--time", NULL, "prints the time of every stage"},

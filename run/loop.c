@@ -139,6 +139,15 @@ static enum status sample(struct run *r)
   return gauges_sample(r->gauges, r->sim);
 }
 
+/* unless --threads says how many */
+static void choose_threads(const struct run *r)
+{
+  const struct sim *sim = r->sim;
+  long              items = (long)sim->grid.n[0] * sim->grid.n[1] * sim->grid.n[2];
+  for (int s = 0; s < N_SETS; s++) items += sim->points[s] ? sim->points[s]->n : 0;
+  if (r->options->threads == 0) parallel_choose_threads(items);
+}
+
 static enum status open_run(struct run *r)
 {
   const struct scene *scene = &r->loaded->scene;
@@ -148,6 +157,7 @@ static enum status open_run(struct run *r)
   TRY(NEW(&r->calls, r->plan.n_stages));
   TRY(NEW(&r->limited, r->plan.n_stages + 1));
   TRY(sim_create(scene, &r->plan, &r->sim));
+  choose_threads(r);
   r->t_end = fmin(scene->time_end, r->options->until);
   r->gauge_interval = gauges_interval(scene);
   r->counts.dt_min = INFINITY;
