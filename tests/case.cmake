@@ -6,6 +6,7 @@ if(NOT FLUID STREQUAL solid)
   set(fluid --fluid ${FLUID})
 endif()
 
+file(REMOVE_RECURSE ${OUT})
 execute_process(COMMAND ${PROGRAM} run ${CASE}/scene.json ${fluid} --quick --force --out ${OUT} RESULT_VARIABLE result)
 if(NOT result EQUAL 0 AND NOT WRITE_PLAN)
   message(FATAL_ERROR "${name} on ${FLUID}: exit status ${result}")

@@ -33,6 +33,7 @@ string(REGEX MATCH "([^ ]+) ([^ \n]+)" none "${times}")
 set(half ${CMAKE_MATCH_1})
 set(end ${CMAKE_MATCH_2})
 
+file(REMOVE_RECURSE ${OUT})
 foreach(threads 1 2 4)
   run(threads${threads} --threads ${threads} --until ${end})
 endforeach()
