@@ -10,6 +10,7 @@ struct constitutive_model {
   size_t              param_size;
   int                 n_history; /* doubles of history per point */
   bool                held;      /* never moves: no stress, no mechanical time step limit */
+  bool total; /* stress follows from F alone, not from the stress before: a pre-stress must be put into F */
   /** Stress at the end of the step of n points of one material.
    *  dF, F [n][9] relative and total deformation gradient (in); stress [n][6] effective Cauchy, Pa, tension positive,
    *  xx yy zz xy yz xz (in/out); history [n][n_history] (in/out; NULL where n_history is 0); work [n] plastic work of

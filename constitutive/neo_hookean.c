@@ -101,6 +101,7 @@ const struct constitutive_model constitutive_neo_hookean = {
     .source = "1, Skeleton models",
     .params = params,
     .param_size = sizeof(struct isotropic),
+    .total = true,
     .update = update,
     .wave_speed = wave_speed,
     .energy = energy,

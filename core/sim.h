@@ -17,7 +17,7 @@ struct sim {
   const struct scene         *scene;
   struct grid                 grid;
   double                      t, dt;    /* s: start of the step and its length */
-  double                      dt_limit; /* s: the mechanical limit at factor one, that blends per step refer to */
+  double                      dt_limit; /* s: what the stages allow at factor one; blends per step refer to it */
   long                        step;
   struct points              *points[N_SETS]; /* NULL: no such set */
   int                         n_markers;

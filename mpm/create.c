@@ -101,6 +101,30 @@ enum status mpm_create_points(struct sim *sim, struct mpm *m)
 }
 
 /* geostatic stress of the points: vertical from the weight above, lateral by the law's ratio */
+/* stress of a law that knows only F, stretched by s along up: what a column without lateral strain has */
+static double stretched(const struct material *material, const double up[3], double s, double F[9], double stress[6])
+{
+  static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  double              S[9], along = 0;
+  for (int q = 0; q < 9; q++) F[q] = identity[q] + (s - 1) * up[q / 3] * up[q % 3];
+  material->model->update(material->model_params, 1, 0, identity, F, stress, NULL, NULL);
+  tensor_from_symmetric(stress, S);
+  for (int q = 0; q < 9; q++) along += S[q] * up[q / 3] * up[q % 3];
+  return along;
+}
+
+/* the stretch that carries `effective`, by halving */
+static void start_stretch(struct mpm *m, const struct material *material, const double up[3], int dim, long p,
+                          double effective)
+{
+  double low = 1e-3, high = 1, F[9];
+  for (int i = 0; i < 100; i++) {
+    double middle = 0.5 * (low + high);
+    *(stretched(material, up, middle, F, m->stress_p + 6 * p) < effective ? &low : &high) = middle;
+  }
+  for (int q = 0; q < dim * dim; q++) m->F_p[p * dim * dim + q] = F[q / dim * 3 + q % dim];
+}
+
 enum status mpm_start_stress(struct sim *sim, struct mpm *m)
 {
   const struct scene *scene = sim->scene;
@@ -113,6 +137,10 @@ enum status mpm_start_stress(struct sim *sim, struct mpm *m)
     double                 x[3] = {0}, stress[9];
     for (int d = 0; d < scene->dim; d++) x[d] = m->x_p[p * scene->dim + d];
     TRY(at_rest_column(scene, x, &rest));
+    if (material->model->total) {
+      start_stretch(m, material, up, scene->dim, p, fmin(0, rest.effective));
+      continue;
+    }
     double lateral = material->model->held ? 1 : material->model->lateral_ratio(material->model_params);
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)

@@ -45,7 +45,7 @@ bool mpm_transfer_affine(const struct scene *scene);
 /** Factor on h/c that the basis asks for. A node that a body barely reaches has mass w and answers with (grad w)^2/w,
  * which is 2/h2 for quadratic splines, tends to zero for cubic ones, but is 1/(l h) for GIMP points of half width l:
  * sqrt(2 l/h). */
-double mpm_basis_step(const struct sim *sim);
+double mpm_basis_step(const struct scene *scene);
 /** Share of the nodal velocity in the update of a point for a step dt, T(30); the blend per step is scaled with dt. */
 double mpm_blend(const struct sim *sim, double dt);
 

@@ -26,12 +26,15 @@ enum status mpm_advance_nodes(struct sim *sim, double dt)
   return OK;
 }
 
+/* the blend of a scene holds for a step of this factor, the default; other steps take their share */
+static const double blend_step = 0.8;
+
 double mpm_blend(const struct sim *sim, double dt)
 {
   const struct numerics *n = &sim->scene->numerics;
   if (n->transfer == TRANSFER_PIC || n->transfer == TRANSFER_APIC) return 1;
   if (n->transfer == TRANSFER_FLIP) return 0;
-  double share = sim->dt_limit > 0 ? dt / (n->dt_factor * sim->dt_limit) : 1;
+  double share = sim->dt_limit < INFINITY ? dt / (blend_step * sim->dt_limit) : 1;
   return n->aflip_beta >= 1 ? 1 : 1 - pow(1 - n->aflip_beta, share);
 }
 

@@ -60,7 +60,7 @@ enum status mpm_points_to_nodes(struct sim *sim, double dt)
 }
 
 /* velocity = momentum / mass where there is enough mass, else zero */
-static void velocities(const struct sim *sim, const struct mpm *m, double *vel_nc)
+static void velocities(const struct sim *sim, const struct mpm *m, double t, double *vel_nc)
 {
   const struct grid *g = &sim->grid;
   struct box         all = grid_all(g);
@@ -68,7 +68,7 @@ static void velocities(const struct sim *sim, const struct mpm *m, double *vel_n
   FOR_BOX(g, all, c)
   for (int d = 0; d < dim; d++)
     vel_nc[c * dim + d] = m->mass_nc[c] > m->mass_floor ? m->mom_nc[c * dim + d] / m->mass_nc[c] : 0;
-  boundary_velocity(g, sim->scene->solid_side, sim->t, vel_nc);
+  boundary_velocity(g, sim->scene->solid_side, t, vel_nc);
 }
 
 enum status mpm_fold_nodes(struct sim *sim, double dt)
@@ -79,7 +79,7 @@ enum status mpm_fold_nodes(struct sim *sim, double dt)
   boundary_fold(&m->kernel_grid, sides, 1, m->mass_nc);
   boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
   boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->force_nc);
-  velocities(sim, m, m->vel_nc);
+  velocities(sim, m, sim->t, m->vel_nc);
   boundary_ghosts(&m->kernel_grid, sides, 1, sim->t, m->mass_nc); /* markers and faces look for the solid there */
   return OK;
 }
@@ -112,7 +112,7 @@ enum status mpm_remap_momentum(struct sim *sim, double dt)
   gather_points(sim, m, false);
   boundary_fold(&m->kernel_grid, sides, 1, m->mass_nc);
   boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
-  velocities(sim, m, m->vel_new_nc);
+  velocities(sim, m, sim->t + dt, m->vel_new_nc);
   boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, m->vel_new_nc);
   mpm_gather_gradient(sim, m, m->vel_new_nc);
   refer_to_start(sim, m, dt);

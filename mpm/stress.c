@@ -90,19 +90,20 @@ enum status mpm_update_stress(struct sim *sim, double dt)
   return OK;
 }
 
-double mpm_basis_step(const struct sim *sim)
+double mpm_basis_step(const struct scene *scene)
 {
-  double least = 1;
-  if (sim->scene->numerics.basis != BASIS_GIMP) return 1;
-  for (int d = 0; d < sim->grid.dim; d++) least = fmin(least, 2 * mpm_of(sim)->kernel_grid.half_width[d] / sim->grid.h);
-  return sqrt(least);
+  int most = 1;
+  if (scene->numerics.basis != BASIS_GIMP) return 1;
+  for (int d = 0; d < scene->dim; d++)
+    if (scene->numerics.points_per_axis[d] > most) most = scene->numerics.points_per_axis[d];
+  return 1 / sqrt(most); /* a point is h/most wide, 2 l */
 }
 
 /* elastic wave over a cell; and half a cell of motion */
 double mpm_stress_dt(const struct sim *sim)
 {
   const struct mpm *m = mpm_of(sim);
-  double h = sim->grid.h, wave = sim->scene->numerics.dt_factor * mpm_basis_step(sim) * h / m->now.wave_speed;
+  double h = sim->grid.h, wave = sim->scene->numerics.dt_factor * mpm_basis_step(sim->scene) * h / m->now.wave_speed;
   return fmin(wave, m->now.speed > 0 ? 0.5 * h / m->now.speed : INFINITY);
 }
 

@@ -227,7 +227,6 @@ static enum status step(struct run *r, bool *event)
   if (!(limit > 0))
     return FAIL(ERR_DIVERGED, "%s: the time step limit is %g s at t = %g s; lower numerics.dt_factor", by, limit,
                 sim->t);
-  sim->dt_limit = limit / sim->scene->numerics.dt_factor;
   dt = events_step(&r->events, sim->t, limit, event);
   sim->dt = dt;
   sim_poison(sim);

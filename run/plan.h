@@ -37,8 +37,9 @@ void        sim_destroy(struct sim **sim);
 /** Number of points of each set (and of markers), and of groups, that a scene would have. */
 enum status sim_count_points(const struct scene *scene, const struct plan *plan, long n[N_COUNTS],
                              int groups[N_SETS]) MUST_CHECK;
-/** Smallest time step limit of the planned stages and numerics.dt_max, s; *by: its stage's name. */
-double sim_dt_limit(const struct sim *sim, const struct plan *plan, const char **by);
+/** Smallest time step limit of the planned stages and numerics.dt_max, s; *by: its stage's name. sim->dt_limit becomes
+ * what the stages allow at factor one, whatever dt_factor and dt_max are. */
+double sim_dt_limit(struct sim *sim, const struct plan *plan, const char **by);
 /** Fills every scratch field with NaN in debug builds, before a step. */
 void sim_poison(struct sim *sim);
 /** What is in the run now. */

@@ -139,18 +139,21 @@ void sim_poison(struct sim *sim)
     }
 }
 
-double sim_dt_limit(const struct sim *sim, const struct plan *plan, const char **by)
+double sim_dt_limit(struct sim *sim, const struct plan *plan, const char **by)
 {
-  double limit = sim->scene->numerics.dt_max;
+  double natural = INFINITY;
   *by = "numerics.dt_max";
   for (int i = 0; i < plan->n_stages; i++) {
     if (!plan->stages[i]->dt_limit) continue;
     double own = plan->stages[i]->dt_limit(sim);
-    if (own >= limit) continue;
-    limit = own;
+    if (own >= natural) continue;
+    natural = own;
     *by = plan->stages[i]->name;
   }
-  return limit;
+  sim->dt_limit = natural / sim->scene->numerics.dt_factor;
+  if (natural <= sim->scene->numerics.dt_max) return natural;
+  *by = "numerics.dt_max";
+  return sim->scene->numerics.dt_max;
 }
 
 void sim_measure(const struct sim *sim, struct ledger *ledger)

@@ -61,7 +61,6 @@ static inline double scene_step_to(struct scene_run *run, double dt, const char 
   double      limit = sim_dt_limit(sim, &run->plan, &by);
   bool        done = false;
   sim->dt = fmin(dt, limit);
-  sim->dt_limit = limit / sim->scene->numerics.dt_factor;
   sim_poison(sim);
   for (int i = 0; i < run->plan.n_stages && !done; i++) {
     must(run->plan.stages[i]->run(sim, sim->dt));

@@ -74,5 +74,6 @@ double twopoint_dt_limit(const struct sim *sim)
 {
   const struct twopoint *w = twopoint_of(sim);
   double                 h = sim->grid.h;
-  return fmin(sim->scene->numerics.dt_factor * h / w->fast_wave, w->now.speed > 0 ? 0.5 * h / w->now.speed : INFINITY);
+  double                 wave = sim->scene->numerics.dt_factor * mpm_basis_step(sim->scene) * h / w->fast_wave;
+  return fmin(wave, w->now.speed > 0 ? 0.5 * h / w->now.speed : INFINITY);
 }

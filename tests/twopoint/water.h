@@ -63,7 +63,6 @@ static inline double water_step(struct water_run *run, const char *last)
   double      dt = sim_dt_limit(sim, &run->plan, &by);
   bool        done = false;
   sim->dt = dt;
-  sim->dt_limit = dt / sim->scene->numerics.dt_factor;
   for (int i = 0; i < run->plan.n_stages && !done; i++) {
     water_ok(run->plan.stages[i]->run(sim, dt));
     done = last && strcmp(run->plan.stages[i]->name, last) == 0;
