@@ -69,16 +69,16 @@ static inline double scale_of(const struct reference *r, const void *prm, const 
   return r->scale(prm, reference_quantity(r, quantity));
 }
 
-/* RMS over n equal cells of [0, H] of the difference of two references in one quantity. */
+/* RMS over n equal cells of [0, H] of the difference of two references in one quantity, a at time t and b at time t_b. */
 static inline double rms_between(const struct reference *a, const void *pa, const struct reference *b, const void *pb,
-                                 const char *quantity, int n, double H, double t)
+                                 const char *quantity, int n, double H, double t, double t_b)
 {
   double(*x)[3] = calloc((size_t)n, sizeof *x), *va = calloc((size_t)n, sizeof *va),
   *vb = calloc((size_t)n, sizeof *vb);
   double sum = 0.0;
   for (int i = 0; i < n; i++) x[i][1] = (i + 0.5) * H / n;
   ck_assert_int_eq(a->value(pa, reference_quantity(a, quantity), n, (const double(*)[3])x, t, va), OK);
-  ck_assert_int_eq(b->value(pb, reference_quantity(b, quantity), n, (const double(*)[3])x, t, vb), OK);
+  ck_assert_int_eq(b->value(pb, reference_quantity(b, quantity), n, (const double(*)[3])x, t_b, vb), OK);
   for (int i = 0; i < n; i++) sum += (va[i] - vb[i]) * (va[i] - vb[i]);
   free(x), free(va), free(vb);
   return sqrt(sum / n);
