@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs cases in full against their references and writes down what came out.
 
-usage: validate.py --program PROGRAM --out FOLDER [CASE ...]
+usage: validate.py --program PROGRAM --out FOLDER [--record] [CASE ...]
 
 CASE is the name of a case (all its variants) or case+variant; without any, everything that cases/*/expected.json has limits for,
-quick variants excepted. FOLDER/results.json keeps the figures of cases that did not run this time; FOLDER/README.md shows all.
+quick variants excepted. --record writes the values, to three digits, beside the limits of cases/*/expected.json. FOLDER/results.json keeps the figures of cases that did not run this time; FOLDER/README.md shows all.
 """
 import argparse
 import glob
@@ -73,10 +73,35 @@ def page(results):
     return "\n".join(lines) + "\n"
 
 
+def record_values(runs):
+    """Puts what was measured beside each limit of cases/*/expected.json."""
+    for file in sorted(glob.glob(os.path.join(ROOT, "cases", "*", "expected.json"))):
+        case = os.path.basename(os.path.dirname(file))
+        with open(file) as text:
+            expected = json.load(text)
+        blocks = []
+        for variant, paths in expected.items():
+            inner = []
+            for path, metrics in paths.items():
+                measured = runs.get(f"{case if variant == 'base' else case + '+' + variant} {path}", {}).get("metrics", {})
+                lines = []
+                for name, entry in metrics.items():
+                    value = measured.get(name, {}).get("value", entry.get("value"))
+                    entry = {key: entry[key] for key in entry if key != "value"}
+                    if value is not None:
+                        entry = {"value": float(f"{value:.3g}"), **entry}
+                    lines.append(f"      {json.dumps(name)}: {json.dumps(entry)}")
+                inner.append(f"    {json.dumps(path)}: {{\n" + ",\n".join(lines) + "\n    }")
+            blocks.append(f"  {json.dumps(variant)}: {{\n" + ",\n".join(inner) + "\n  }")
+        with open(file, "w") as text:
+            text.write("{\n" + ",\n".join(blocks) + "\n}\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
     parser.add_argument("--out", required=True)
+    parser.add_argument("--record", action="store_true")
     parser.add_argument("case", nargs="*")
     options = parser.parse_args()
     selected = jobs(options.case)
@@ -100,6 +125,8 @@ def main():
             file.write("\n")
         with open(os.path.join(options.out, "README.md"), "w") as file:
             file.write(page(results))
+    if options.record:
+        record_values(results["runs"])
     print(f"{len(selected) - missed} of {len(selected)} within their limits; written: {options.out}/README.md")
     return 1 if missed else 0
 
