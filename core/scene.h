@@ -135,7 +135,7 @@ struct numerics {
   int    points_per_axis[3];          /* their number along each axis */
   double dt_factor, dt_max;           /* s; INFINITY: none */
   double theta;
-  double pressure_tolerance; /* of the volume flux per step, relative to the pore volume */
+  double pressure_tolerance; /* residual over the largest right-hand side */
 };
 
 struct output {

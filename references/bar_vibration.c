@@ -82,7 +82,7 @@ static double scale(const void *prm, int quantity)
 
 const struct reference reference_bar_vibration = {
     .name = "bar_vibration",
-    .source = "separation of variables, docs/references.md",
+    .source = "separation of variables",
     .params = params,
     .param_size = sizeof(struct bar),
     .quantities = "displacement_x|vel_x|stress_xx|kinetic|elastic|energy|frequency|angular_frequency",

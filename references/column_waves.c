@@ -106,7 +106,7 @@ static double scale(const void *prm, int quantity)
 
 const struct reference reference_column_waves = {
     .name = "column_waves",
-    .source = "linear two-velocity theory, docs/references.md",
+    .source = "linear two-velocity theory",
     .params = params,
     .param_size = sizeof(struct column_waves),
     .quantities = "P|stress_yy|displacement_y|settlement|frequency|angular_frequency|decay",

@@ -136,7 +136,7 @@ static double scale(const void *prm, int quantity)
 
 const struct reference reference_porous_plug = {
     .name = "porous_plug",
-    .source = "drag per volume = porosity times pressure gradient, docs/references.md",
+    .source = "drag per volume = porosity times pressure gradient",
     .params = params,
     .param_size = sizeof(struct plug),
     .quantities = "vel_x|flux|P|reynolds",

@@ -143,7 +143,7 @@ static double scale(const void *prm, int quantity)
 
 const struct reference reference_rotating_disk = {
     .name = "rotating_disk",
-    .source = "steady rotation and radial modes, docs/references.md",
+    .source = "steady rotation and radial modes",
     .params = params,
     .param_size = sizeof(struct disk),
     .quantities = "displacement_r|rim|distance|rim_static|stress_r_static|stress_t_static|kinetic|angular_z|frequency|"

@@ -257,7 +257,7 @@ static double scale(const void *prm, int quantity)
 
 const struct reference reference_submerged_column = {
     .name = "submerged_column",
-    .source = "equilibrium in the coordinate of the given shape, docs/references.md",
+    .source = "equilibrium in the coordinate of the given shape",
     .params = params,
     .param_size = sizeof(struct submerged),
     .quantities = "P|stress_yy|displacement_y|settlement|surface|base_pressure|base_stress",

@@ -121,7 +121,7 @@ static double scale(const void *prm, int quantity)
 
 const struct reference reference_terzaghi = {
     .name = "terzaghi",
-    .source = "Terzaghi's series with storage, docs/references.md",
+    .source = "Terzaghi's series with storage",
     .params = params,
     .param_size = sizeof(struct terzaghi),
     .quantities = "P|stress_yy|displacement_y|settlement|base_pressure|p0",

@@ -69,6 +69,8 @@ def main(folder, picture):
     runs = [run for run in snapshots.runs(folder) if snapshots.summary(run)["status"] in ("done", "metric missed")] or snapshots.runs(folder)
     if not runs:
         sys.exit(f"isochrones.py: {folder}: no finished run here")
+    if snapshots.scene(runs[0]).get("references", {}).get("theory", {}).get("kind") != "terzaghi":
+        sys.exit(f"isochrones.py: {folder}: the scene has no references.theory of kind terzaghi to draw against; mpmice plot draws the fields")
     theory = Theory(snapshots.scene(runs[0]))
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     height = np.linspace(0, 1, 201)

@@ -17,14 +17,14 @@ static int by_time(const void *a, const void *b)
   return (x->t > y->t) - (x->t < y->t);
 }
 
-static void merge(struct events *e, double t_end)
+/* events closer than `near` are one, at the later time: an output just before the end must not force a tiny step */
+static void merge(struct events *e, double near)
 {
   int kept = 0;
   for (int i = 0; i < e->n; i++) {
-    if (kept > 0 && e->event[i].t - e->event[kept - 1].t <= 1e-12 * t_end)
-      e->event[kept - 1].kinds |= e->event[i].kinds;
-    else
-      e->event[kept++] = e->event[i];
+    int kinds = e->event[i].kinds;
+    if (kept > 0 && e->event[i].t - e->event[kept - 1].t <= near) kinds |= e->event[--kept].kinds;
+    e->event[kept++] = (struct event){e->event[i].t, kinds};
   }
   e->n = kept;
 }
@@ -40,7 +40,7 @@ enum status events_create(const struct scene *scene, double output_interval, con
   for (int i = 0; i < n_metric_times; i++) add(events, metric_times[i], t_end, EVENT_METRIC);
   add(events, t_end, t_end, EVENT_END | EVENT_OUTPUT);
   qsort(events->event, (size_t)events->n, sizeof *events->event, by_time);
-  merge(events, t_end);
+  merge(events, 1e-6 * fmin(t_end, output_interval > 0 ? output_interval : t_end));
   return OK;
 }
 

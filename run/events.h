@@ -16,7 +16,7 @@ struct events {
   int           n, next;
 };
 
-/** All times in (0, t_end], increasing; times closer than 1e-12 of the end are one. */
+/** All times in (0, t_end], increasing; times closer than 1e-6 of the output interval are one, the later. */
 enum status events_create(const struct scene *scene, double output_interval, const double *metric_times,
                           int n_metric_times, double t_end, struct events *events) MUST_CHECK;
 void        events_destroy(struct events *events);

@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -78,4 +79,14 @@ enum status files_replace(const char *path, const char *text, size_t n)
     return s;
   }
   return files_commit(path);
+}
+
+void files_remove(const char *folder, const char *prefix)
+{
+  char           path[LONGEST_PATH];
+  DIR           *directory = opendir(folder);
+  struct dirent *entry;
+  while (directory && (entry = readdir(directory)))
+    if (!strncmp(entry->d_name, prefix, strlen(prefix)) && files_path(folder, entry->d_name, path) == OK) remove(path);
+  if (directory) closedir(directory);
 }

@@ -6,6 +6,7 @@
 #include "mpm/mpm.h"
 #include "run/checkpoint.h"
 #include "run/events.h"
+#include "run/files.h"
 #include "run/gauges.h"
 #include "run/metrics.h"
 #include "run/output.h"
@@ -148,7 +149,8 @@ static void choose_threads(const struct run *r)
   if (r->options->threads == 0) parallel_choose_threads(items);
 }
 
-static enum status open_run(struct run *r)
+/* fresh: not a resumed one; what an earlier run left in the folder must not be mistaken for this one's */
+static enum status open_run(struct run *r, bool fresh)
 {
   const struct scene *scene = &r->loaded->scene;
   int                 n_times;
@@ -162,6 +164,8 @@ static enum status open_run(struct run *r)
   r->gauge_interval = gauges_interval(scene);
   r->counts.dt_min = INFINITY;
   TRY(make_folder(r->folder));
+  static const char *const old[] = {"fields.", "gauges.csv", "summary.json", "checkpoint.h5"};
+  for (size_t i = 0; fresh && i < sizeof old / sizeof *old; i++) files_remove(r->folder, old[i]);
   TRY(metrics_create(r->sim, &r->metrics));
   const double *times = metrics_times(r->metrics, &n_times);
   TRY(events_create(scene, output_interval(scene), times, n_times, r->t_end, &r->events));
@@ -315,7 +319,8 @@ static void fill_record(const struct run *r, struct run_record *record)
   fill_ledger(r, record);
 }
 
-static enum status write_summary(struct run *r, const char *status, bool *missed)
+/* t_reached: metrics of later times are left out */
+static enum status write_summary(struct run *r, const char *status, double t_reached, bool *missed)
 {
   struct run_record     record;
   struct stage_entry    stages[MAX_STAGES];
@@ -336,7 +341,7 @@ static enum status write_summary(struct run *r, const char *status, bool *missed
   record.limited_by = limited;
   record.left_out = left_out;
   record.n_left_out = r->plan.n_left_out;
-  TRY(metrics_finish(r->metrics, r->gauges, r->loaded, r->t_end, &record.n_metrics, &record.metrics));
+  TRY(metrics_finish(r->metrics, r->gauges, r->loaded, t_reached, &record.n_metrics, &record.metrics));
   for (int i = 0; i < record.n_metrics; i++)
     *missed = *missed || (record.metrics[i].has_limit && !record.metrics[i].pass);
   if (!r->options->quiet) summary_print(&record);
@@ -371,12 +376,13 @@ static enum status finish(struct run *r, enum status how)
   update_clocks(r);
   if (how == OK || how == INTERRUPTED) {
     TRY(save(r));
-    TRY(write_summary(r, how == OK ? "done" : "interrupted", &missed));
+    TRY(write_summary(r, how == OK ? "done" : "interrupted", how == OK ? r->t_end : r->sim->t, &missed));
   } else {
     TRY(gauges_flush(r->gauges));
-    TRY(write_summary(r, message, &missed));
+    TRY(write_summary(r, message, r->sim->t, &missed));
   }
   if (r->options->time) print_timers(r);
+  if (!r->options->quiet) printf("files: %s\n", r->folder);
   if (how != OK) return FAIL(how, "%s", message);
   return missed ? FAIL(ERR_METRIC, "a metric missed its limit; see the table above or %s/summary.json", r->folder) : OK;
 }
@@ -406,7 +412,7 @@ enum status run_scene(const struct run_options *options)
   enum status status = scene_load(options, &r.loaded);
   if (status == OK) status = scene_out_directory(r.loaded, options, r.folder, sizeof r.folder);
   if (status == OK) status = scene_refuse_used_directory(options, r.folder);
-  if (status == OK) status = open_run(&r);
+  if (status == OK) status = open_run(&r, true);
   if (status == OK) status = begin(&r);
   if (status == OK) status = run_to_end(&r);
   close_run(&r);
@@ -423,7 +429,7 @@ enum status run_resume(const struct run_options *options)
   again.argument = used;
   if (options->threads > 0) parallel_set_threads(options->threads);
   enum status status = scene_load(&again, &r.loaded);
-  if (status == OK) status = open_run(&r);
+  if (status == OK) status = open_run(&r, false);
   if (status == OK) status = restore(&r);
   if (status == OK) status = run_to_end(&r);
   close_run(&r);

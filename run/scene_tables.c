@@ -287,7 +287,7 @@ static const struct param numerics_params[] = {
     {"pressure_solver", PARAM_CHOICE, AT(numerics, pressure_solver), "-", 0, 0, "auto", "auto|hypre|direct",
      "solver of the pressure equation"},
     {"pressure_tolerance", PARAM_NUMBER, AT(numerics, pressure_tolerance), "-", 1e-16, 1e-2, "1e-10", NULL,
-     "residual of the volume flux per step over the pore volume"},
+     "residual of the pressure equation over its largest right-hand side; at least 1e-13 of a cell's volume per step"},
     PARAM_END};
 static const struct entry numerics_entries[] = {
     {"points_per_cell", ENTRY_VALUE, &value_points_per_cell, NULL, 0, 0, "4", "8", NULL, "-",
