@@ -10,16 +10,18 @@
 #define TERMINAL_PERIOD 0.2
 #define PLAIN_PERIOD 10.0
 
-/* A signal can only reach us through a global; it is the one that is allowed. */
+/* s; a second request so soon is the first one told twice, as timeout(1) tells its child and then the whole group */
+#define SAME_REQUEST 1.0
+
+/* A signal can only reach us through globals; these two are the ones that are allowed. */
 static volatile sig_atomic_t stop_asked;
-static volatile time_t first_asked; /* s; a second request within a second is the same one, told to a group twice */
+static volatile double       first_asked; /* progress_clock */
 
 static void on_signal(int number)
 {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (stop_asked && now.tv_sec > first_asked + 1) _exit(128 + number);
-  if (!stop_asked) first_asked = now.tv_sec;
+  double now = progress_clock(); /* may be called by a signal's handler */
+  if (stop_asked && now > first_asked + SAME_REQUEST) _exit(128 + number);
+  if (!stop_asked) first_asked = now;
   stop_asked = 1;
 }
 
