@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <fnmatch.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -81,12 +82,12 @@ enum status files_replace(const char *path, const char *text, size_t n)
   return files_commit(path);
 }
 
-void files_remove(const char *folder, const char *prefix)
+void files_remove(const char *folder, const char *pattern)
 {
   char           path[LONGEST_PATH];
   DIR           *directory = opendir(folder);
   struct dirent *entry;
   while (directory && (entry = readdir(directory)))
-    if (!strncmp(entry->d_name, prefix, strlen(prefix)) && files_path(folder, entry->d_name, path) == OK) remove(path);
+    if (fnmatch(pattern, entry->d_name, 0) == 0 && files_path(folder, entry->d_name, path) == OK) remove(path);
   if (directory) closedir(directory);
 }

@@ -16,8 +16,8 @@ enum status files_read(const char *path, size_t limit, char **text, size_t *n) M
 enum status files_replace(const char *path, const char *text, size_t n) MUST_CHECK;
 /** Second half of that for a path.tmp written by others: to the disk, then renamed to path. */
 enum status files_commit(const char *path) MUST_CHECK;
-/** Removes the files of a folder whose names start with prefix; none is no error. */
-void files_remove(const char *folder, const char *prefix);
+/** Removes the files of a folder whose names match a pattern of the shell; none is no error. */
+void files_remove(const char *folder, const char *pattern);
 /** A readable regular file? */
 int files_exists(const char *path);
 

@@ -149,8 +149,7 @@ static void choose_threads(const struct run *r)
   if (r->options->threads == 0) parallel_choose_threads(items);
 }
 
-/* fresh: not a resumed one; what an earlier run left in the folder must not be mistaken for this one's */
-static enum status open_run(struct run *r, bool fresh)
+static enum status open_run(struct run *r)
 {
   const struct scene *scene = &r->loaded->scene;
   int                 n_times;
@@ -164,8 +163,6 @@ static enum status open_run(struct run *r, bool fresh)
   r->gauge_interval = gauges_interval(scene);
   r->counts.dt_min = INFINITY;
   TRY(make_folder(r->folder));
-  static const char *const old[] = {"fields.", "gauges.csv", "summary.json", "checkpoint.h5"};
-  for (size_t i = 0; fresh && i < sizeof old / sizeof *old; i++) files_remove(r->folder, old[i]);
   TRY(metrics_create(r->sim, &r->metrics));
   const double *times = metrics_times(r->metrics, &n_times);
   TRY(events_create(scene, output_interval(scene), times, n_times, r->t_end, &r->events));
@@ -394,9 +391,19 @@ static enum status run_to_end(struct run *r)
   return finish(r, advance(r));
 }
 
+/* what an earlier run left in the folder must not be mistaken for this one's */
+static void remove_old(const struct run *r)
+{
+  static const char *const old[] = {"fields.*.hdf", "fields.*.hdf.series", "gauges.csv", "summary.json",
+                                    "checkpoint.h5"};
+  for (size_t i = 0; i < sizeof old / sizeof *old; i++) files_remove(r->folder, old[i]);
+}
+
+/* the first that a new run writes; everything that can be wrong with it was found before */
 static enum status begin(struct run *r)
 {
   char used[1100];
+  remove_old(r);
   snprintf(used, sizeof used, "%s/scene.used.json", r->folder);
   TRY(scene_write_used(r->loaded, used));
   TRY(write_plan(r));
@@ -412,7 +419,7 @@ enum status run_scene(const struct run_options *options)
   enum status status = scene_load(options, &r.loaded);
   if (status == OK) status = scene_out_directory(r.loaded, options, r.folder, sizeof r.folder);
   if (status == OK) status = scene_refuse_used_directory(options, r.folder);
-  if (status == OK) status = open_run(&r, true);
+  if (status == OK) status = open_run(&r);
   if (status == OK) status = begin(&r);
   if (status == OK) status = run_to_end(&r);
   close_run(&r);
@@ -429,7 +436,7 @@ enum status run_resume(const struct run_options *options)
   again.argument = used;
   if (options->threads > 0) parallel_set_threads(options->threads);
   enum status status = scene_load(&again, &r.loaded);
-  if (status == OK) status = open_run(&r, false);
+  if (status == OK) status = open_run(&r);
   if (status == OK) status = restore(&r);
   if (status == OK) status = run_to_end(&r);
   close_run(&r);
