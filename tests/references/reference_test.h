@@ -69,7 +69,8 @@ static inline double scale_of(const struct reference *r, const void *prm, const 
   return r->scale(prm, reference_quantity(r, quantity));
 }
 
-/* RMS over n equal cells of [0, H] of the difference of two references in one quantity, a at time t and b at time t_b. */
+/* RMS over n equal cells of [0, H] of the difference of two references in one quantity, a at time t and b at time t_b.
+ */
 static inline double rms_between(const struct reference *a, const void *pa, const struct reference *b, const void *pb,
                                  const char *quantity, int n, double H, double t, double t_b)
 {
