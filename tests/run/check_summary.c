@@ -10,6 +10,7 @@
 #include <math.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <time.h>
 
 static const struct metric_entry metrics[] = {
     {"rms", "-", "theory.P", 0.01, 0.02, true, true},
@@ -189,6 +190,8 @@ START_TEST(signals_are_heard)
     if (progress_stop_asked()) _exit(1);
     raise(_i);
     if (!progress_stop_asked()) _exit(2);
+    raise(_i); /* the same request, told twice */
+    for (struct timespec rest = {2, 100000000}; nanosleep(&rest, &rest);) continue;
     raise(_i); /* the second one ends at once */
     _exit(3);
   }
