@@ -56,6 +56,38 @@ static void centre_weights(const struct grid *g, const double x[3], int n, const
   for (int q = 0; q < n; q++) w[q] *= 1 + r[q][0] * a[0] + r[q][1] * a[1] + r[q][2] * a[2];
 }
 
+/* the basis one order lower, whose difference over a cell is the derivative of `basis`; NULL: there is none */
+static const struct kernels *lower_kernels(int dim, enum basis basis)
+{
+  return basis == BASIS_LINEAR ? NULL : kernels_find(dim, basis == BASIS_CUBIC ? BASIS_QUADRATIC : BASIS_LINEAR);
+}
+
+/* Weights of a loaded surface over the nodes of its marker. What balances a uniform stress of the body at a node is not
+ * w(surface), the integral of dw/dn below it, but the points' midpoint sum of that integral. With n points per cell
+ * along the normal it telescopes to the mean of the lower basis at n places within a cell around the surface. With w
+ * itself a node beyond the surface gets more than the points can carry, and the load pulls it out of the body (cubic,
+ * one point per cell). */
+static void surface_weights(const struct sim *sim, const struct mpm *m, long i, const double x[3], const long *node,
+                            double *w)
+{
+  const struct kernels *lower = lower_kernels(sim->grid.dim, m->kernels->basis);
+  const double         *normal = m->marker_normal[i];
+  int                   axis = 0, points;
+  for (int d = 1; d < sim->grid.dim; d++)
+    if (fabs(normal[d]) > fabs(normal[axis])) axis = d;
+  points = sim->scene->numerics.points_per_axis[axis];
+  memset(w, 0, (size_t)m->kernels->n_support * sizeof *w);
+  for (int j = 0; j < points; j++) {
+    long   own[MAX_SUPPORT];
+    double share[MAX_SUPPORT], place[3];
+    for (int d = 0; d < 3; d++) place[d] = x[d] + ((j + 0.5) / points - 0.5) * sim->grid.h * normal[d];
+    lower->weights(&m->kernel_grid, place, own, share, NULL);
+    for (int a = 0; a < lower->n_support; a++)
+      for (int q = 0; q < m->kernels->n_support; q++)
+        if (node[q] == own[a]) w[q] += share[a] / points;
+  }
+}
+
 /* Nodes of a marker and its weights over those that hold enough of the solid. Their sum stays one and their centre at
  * the marker: beyond a free surface nodes are missing, and without the second a load would act too deep, a velocity be
  * too low. On a periodic axis a marker's place counts its turns, its weights do not. */
@@ -66,6 +98,7 @@ static void marker_weights(const struct sim *sim, const struct mpm *m, long i, l
   memcpy(x, m->x_m + i * dim, (size_t)dim * sizeof *x);
   points_wrap(&sim->grid, 1, x);
   m->kernels->weights(&m->kernel_grid, x, node, w, NULL);
+  if (m->marker_area[i] > 0 && m->kernels->basis != BASIS_LINEAR) surface_weights(sim, m, i, x, node, w);
   for (int q = 0; q < n; q++) heaviest = fmax(heaviest, w[q] != 0 ? m->mass_nc[node[q]] : 0);
   for (int q = 0; q < n; q++) {
     if (m->mass_nc[node[q]] <= light_node * heaviest) w[q] = 0;
