@@ -44,6 +44,11 @@ class Theory:
         return self.load / self.softening * modes.sum(axis=1)
 
 
+def consolidation(run):
+    """Whether the run has Terzaghi's theory to be drawn against."""
+    return snapshots.scene(run).get("references", {}).get("theory", {}).get("kind") == "terzaghi"
+
+
 def nearest(series, time):
     return min(series, key=lambda entry: abs(entry[0] - time))
 
@@ -66,11 +71,13 @@ def draw_run(axes, run, theory):
 
 
 def main(folder, picture):
-    runs = [run for run in snapshots.runs(folder) if snapshots.summary(run)["status"] in ("done", "metric missed")] or snapshots.runs(folder)
+    found = snapshots.runs(folder)
+    if not found:
+        sys.exit(f"isochrones.py: {folder}: no run here, for there is no summary.json")
+    runs = [run for run in found if consolidation(run)]
     if not runs:
-        sys.exit(f"isochrones.py: {folder}: no finished run here")
-    if snapshots.scene(runs[0]).get("references", {}).get("theory", {}).get("kind") != "terzaghi":
         sys.exit(f"isochrones.py: {folder}: the scene has no references.theory of kind terzaghi to draw against; mpmice plot draws the fields")
+    runs = [run for run in runs if snapshots.summary(run)["status"] == "done"] or runs
     theory = Theory(snapshots.scene(runs[0]))
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     height = np.linspace(0, 1, 201)

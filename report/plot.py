@@ -124,11 +124,6 @@ def save(figure, run, name):
     print(f"picture: {os.path.abspath(path)}")
 
 
-def consolidation(run):
-    """Whether the run has Terzaghi's theory to be drawn against."""
-    return snapshots.scene(run).get("references", {}).get("theory", {}).get("kind") == "terzaghi"
-
-
 def main(folder):
     runs = snapshots.runs(folder)
     if not runs:
@@ -137,7 +132,7 @@ def main(folder):
     for run in runs:
         save(draw_gauges(run), run, "gauges.png")
         save(draw_fields(run), run, "fields.png")
-    if all(consolidation(run) for run in runs):
+    if all(isochrones.consolidation(run) for run in runs):
         isochrones.main(folder, os.path.join(folder, "isochrones.png"))
     return 0
 

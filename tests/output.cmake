@@ -41,3 +41,15 @@ execute_process(COMMAND ${PROGRAM} plot ${OUT}/nothing RESULT_VARIABLE result ER
 if(NOT result EQUAL 2)
   message(FATAL_ERROR "plot of nothing: exit status ${result}: ${said}${error}")
 endif()
+# Isochrones of what has no Terzaghi theory: a sentence; beside a consolidation it is left out.
+function(isochrones expected pattern folder)
+  execute_process(COMMAND /usr/bin/python3 ${TESTS}/../report/isochrones.py ${folder} RESULT_VARIABLE result
+                  OUTPUT_VARIABLE said ERROR_VARIABLE error)
+  if(NOT result EQUAL expected OR NOT "${said}${error}" MATCHES "${pattern}" OR "${error}" MATCHES "Traceback")
+    message(FATAL_ERROR "isochrones.py ${folder}: exit status ${result} instead of ${expected}: ${said}${error}")
+  endif()
+endfunction()
+
+isochrones(1 "no references.theory" ${OUT}/rotating_disk)
+isochrones(1 "no run here" ${OUT}/nothing)
+isochrones(0 "picture: " ${OUT})
