@@ -120,6 +120,8 @@ struct metric {
   double          offset; /* added to the gauge before comparing */
 };
 
+enum { FOLDER_LENGTH = 1024 };
+
 enum start_kind { START_AT_REST, START_ZERO };
 enum basis { BASIS_LINEAR, BASIS_GIMP, BASIS_QUADRATIC, BASIS_CUBIC };
 #define BASIS_WORDS "linear|gimp|quadratic|cubic"
@@ -153,7 +155,8 @@ struct scene {
   bool                  one_cell[3]; /* the scene gave null: this axis is one cell wide whatever h is */
   double                time_end;
   struct function       gravity[3];
-  int                   start; /* enum start_kind */
+  int                   start;                     /* enum start_kind */
+  char                  start_from[FOLDER_LENGTH]; /* folder of the run whose end is this one's start; "": none */
   int                   seed;
   int                   n_materials, n_solids, n_loads, n_tracers, n_gauges, n_references, n_metrics;
   struct material      *materials;

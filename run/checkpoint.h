@@ -20,5 +20,8 @@ enum status checkpoint_write(const char *folder, const struct sim *sim, int n_it
  *  another scene.used.json or another plan. */
 enum status checkpoint_read(const char *folder, struct sim *sim, int n_items,
                             const struct checkpoint_item *items) MUST_CHECK;
+/** The same points, fields and items as the start of another run: time, step, ledgers and reports of the sim stay. */
+enum status checkpoint_start(const char *folder, struct sim *sim, int n_items,
+                             const struct checkpoint_item *items) MUST_CHECK;
 
 #endif

@@ -13,6 +13,7 @@
 #include "run/plan.h"
 #include "run/progress.h"
 #include "run/scene_read.h"
+#include "run/start_from.h"
 #include "run/summary.h"
 
 #include <errno.h>
@@ -120,6 +121,14 @@ static enum status restore(struct run *r)
   return gauges_resume(r->gauges, r->sim->t);
 }
 
+/* what the modules hold, but no counts or results, may come from another run's end */
+static enum status take_start(struct run *r)
+{
+  struct checkpoint_item items[MAX_ITEMS];
+  int                    n = checkpoint_items(r, items);
+  return start_from(r->loaded, r->sim, n - FIXED_ITEMS, items + FIXED_ITEMS);
+}
+
 /* one row of the gauges, and with it the ledger */
 static enum status sample(struct run *r)
 {
@@ -129,7 +138,7 @@ static enum status sample(struct run *r)
                                                LEDGER_elastic, LEDGER_compression};
   double                         now, before = 0, scale;
   sim_measure(r->sim, l);
-  now = -l->v[LEDGER_work_loads];
+  now = start[LEDGER_work_loads] - l->v[LEDGER_work_loads];
   scale = fabs(now);
   for (size_t i = 0; i < sizeof energies / sizeof *energies; i++) {
     now += l->v[energies[i]];
@@ -280,7 +289,8 @@ static void fill_ledger(const struct run *r, struct run_record *record)
   scale = sqrt(2 * (now[LEDGER_mass_solid] + now[LEDGER_mass_fluid]) *
                (before[LEDGER_kinetic_solid] + before[LEDGER_kinetic_fluid]));
   record->mass_solid_rel = relative(now[LEDGER_mass_solid], before[LEDGER_mass_solid]);
-  record->mass_fluid_rel = relative(now[LEDGER_mass_fluid] + now[LEDGER_mass_fluid_out], before[LEDGER_mass_fluid]);
+  record->mass_fluid_rel = relative(now[LEDGER_mass_fluid] + now[LEDGER_mass_fluid_out] - before[LEDGER_mass_fluid_out],
+                                    before[LEDGER_mass_fluid]);
   record->momentum_rel = scale > 0 ? sqrt(momentum) / scale : 0;
   record->energy_growth_rel = r->counts.energy_growth;
 }
@@ -420,6 +430,7 @@ enum status run_scene(const struct run_options *options)
   if (status == OK) status = scene_out_directory(r.loaded, options, r.folder, sizeof r.folder);
   if (status == OK) status = scene_refuse_used_directory(options, r.folder);
   if (status == OK) status = open_run(&r);
+  if (status == OK) status = take_start(&r);
   if (status == OK) status = begin(&r);
   if (status == OK) status = run_to_end(&r);
   close_run(&r);

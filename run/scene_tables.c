@@ -323,6 +323,11 @@ static const struct param scene_params[] = {
 static const struct entry scene_entries[] = {
     VALUE("title", title, scene, title, "", "-", "one line"),
     VALUE("notes", notes, scene, title, "", "-", "free text, not used"),
+    VALUE("start_from", folder, scene, start_from, "", "-",
+          "output folder, from where the program runs, of a run whose end is the start at t = 0, in place of "
+          "\"start\"; the same grid, solids, "
+          "tracers, "
+          "places of loads and fluid path; what is counted since the start goes on counting"),
     SECTION("grid", grid_section, 0, "{}", "uniform grid"),
     SECTION("time", time_section, 0, "{}", "span of time"),
     MAP("materials", material_section, materials, "materials by name"),

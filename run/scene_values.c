@@ -8,18 +8,28 @@
 #include <stdio.h>
 #include <string.h>
 
-static enum status read_title(struct reader *reader, const cJSON *value, void *at)
+static enum status read_line(struct reader *reader, const cJSON *value, size_t size, const char *remedy, char *at)
 {
-  size_t size = sizeof((struct scene *)0)->title;
   if (!cJSON_IsString(value))
     return reader_fail(reader, "expected a text, found %s; put it in quotes", json_type(value));
-  if (strlen(value->valuestring) >= size)
-    return reader_fail(reader, "more than %zu characters; move the rest to \"notes\"", size - 1);
+  if (strlen(value->valuestring) >= size) return reader_fail(reader, "more than %zu characters; %s", size - 1, remedy);
   memcpy(at, value->valuestring, strlen(value->valuestring) + 1);
   return OK;
 }
 
+static enum status read_title(struct reader *reader, const cJSON *value, void *at)
+{
+  return read_line(reader, value, sizeof((struct scene *)0)->title, "move the rest to \"notes\"", at);
+}
+
 const struct value_kind value_title = {"text", read_title, NULL, "{\"type\": \"string\"}"};
+
+static enum status read_folder(struct reader *reader, const cJSON *value, void *at)
+{
+  return read_line(reader, value, FOLDER_LENGTH, "give a shorter path", at);
+}
+
+const struct value_kind value_folder = {"folder", read_folder, NULL, "{\"type\": \"string\"}"};
 
 static enum status read_notes(struct reader *reader, const cJSON *value, void *at)
 {

@@ -103,6 +103,29 @@ START_TEST(comes_back_bitwise)
 }
 END_TEST
 
+/* As a start of another run: fields, points and items come, the numbers of the sim stay. */
+START_TEST(start_of_another)
+{
+  static double   first[ROOM], second[ROOM], after[ROOM];
+  struct fake_run r;
+  fake_create(2, &r);
+  write_scene(&r, "{}");
+  scramble(&r, 1);
+  long n = gather(&r, first), numbers = 2 * N_LEDGER + 10;
+  fake_ok(checkpoint_write(r.folder, &r.sim, N_ITEMS, item));
+  scramble(&r, 2);
+  gather(&r, second);
+  memset(items, 0, sizeof items);
+  fake_ok(checkpoint_start(r.folder, &r.sim, N_ITEMS, item));
+  ck_assert_int_eq(gather(&r, after), n);
+  ck_assert_mem_eq(after, first, (size_t)(n - numbers) * sizeof *first);
+  ck_assert_mem_ne(after, second, (size_t)(n - numbers) * sizeof *first);
+  ck_assert_mem_eq(&after[n - numbers], &second[n - numbers], (size_t)numbers * sizeof *first);
+  ck_assert(items[0] == 3 && items[1] == 1e9 + 1 && items[2] == -0.1);
+  fake_destroy(&r);
+}
+END_TEST
+
 START_TEST(previous_survives)
 {
   static double                before[ROOM], after[ROOM];
@@ -192,6 +215,7 @@ int main(void)
   TCase *tests = tcase_create("checkpoint");
   tcase_set_timeout(tests, 60);
   tcase_add_loop_test(tests, comes_back_bitwise, 2, 4);
+  tcase_add_test(tests, start_of_another);
   tcase_add_test(tests, previous_survives);
   tcase_add_test(tests, full_disk);
   tcase_add_test(tests, strangers_are_refused);
