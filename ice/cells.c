@@ -84,14 +84,12 @@ static enum status watch(struct sim *sim, struct ice *ice)
   FOR_BOX_SERIAL(g, cells, c)
   {
     if (!(ice->wet_cc[c] > 0)) continue;
-    bool surface = false;
     for (int d = 0; d < g->dim; d++)
       for (int high = 0; high < 2; high++) {
         long q = d * g->size + c + high * g->stride[d];
         fastest = isfinite(ice->u_fc[q]) ? fmax(fastest, fabs(ice->u_fc[q])) : INFINITY;
-        surface = surface || ice->kind[q] == FACE_SURFACE;
       }
-    if (surface) continue;
+    if (ice_has_surface(g, ice, c)) continue;
     square += ice->defect_cc[c] * ice->defect_cc[c];
     most = fmax(most, fabs(ice->defect_cc[c]));
     wet++;

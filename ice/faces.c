@@ -21,6 +21,14 @@ double ice_face_density(const struct ice *ice, long low, long high)
   return l && h ? 0.5 * (ice->rho_cc[low] + ice->rho_cc[high]) : ice->rho_cc[l ? low : high];
 }
 
+bool ice_has_surface(const struct grid *g, const struct ice *ice, long c)
+{
+  for (int d = 0; d < g->dim; d++)
+    if (ice->kind[d * g->size + c] == FACE_SURFACE || ice->kind[d * g->size + c + g->stride[d]] == FACE_SURFACE)
+      return true;
+  return false;
+}
+
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face)
 {
   const struct grid *g = &sim->grid;

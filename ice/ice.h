@@ -50,6 +50,8 @@ static inline bool ice_face_active(enum face_kind kind)
   return kind == FACE_INNER || kind == FACE_SURFACE || kind == FACE_PRESSURE;
 }
 
+/** Whether a wet cell has a surface: such a cell is only filled more or less, which is no volume defect. */
+bool ice_has_surface(const struct grid *g, const struct ice *ice, long cell);
 /** Distance between the pressures of a face, in h: 1 between cells, to the surface or the side else. */
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face);
 /** Pressure beyond a face where there is no wet cell: the side's at time t, or zero at a surface, Pa. */

@@ -52,19 +52,10 @@ static void face_entries(struct sim *sim, struct ice *ice, int axis, double dt)
 
 static bool is_clear(const struct ice *ice, long c) { return 1 - ice->porosity_cc[c] < clear_grains; }
 
-/* a cell below a surface is only filled more or less */
-static bool has_surface(const struct grid *g, const struct ice *ice, long c)
-{
-  for (int d = 0; d < g->dim; d++)
-    if (ice->kind[d * g->size + c] == FACE_SURFACE || ice->kind[d * g->size + c + g->stride[d]] == FACE_SURFACE)
-      return true;
-  return false;
-}
-
 /* volume per time that makes the defect of a cell good in this step, m3/s */
 static double defect_source(const struct sim *sim, const struct ice *ice, long c, double dt)
 {
-  if (has_surface(&sim->grid, ice, c)) return 0;
+  if (ice_has_surface(&sim->grid, ice, c)) return 0;
   double D = fmin(largest_correction, fmax(-largest_correction, ice->defect_cc[c]));
   return ice->params->defect_share * D * ice->porosity_cc[c] * grid_cell_volume(&sim->grid) / dt;
 }
