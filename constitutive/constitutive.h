@@ -9,6 +9,7 @@ struct constitutive_model {
   const struct param *params;
   size_t              param_size;
   int                 n_history; /* doubles of history per point */
+  const char *const  *history;   /* [n_history] their names, for output: "plastic_strain", ... */
   bool                held;      /* never moves: no stress, no mechanical time step limit */
   bool total; /* stress follows from F alone, not from the stress before: a pre-stress must be put into F */
   /** Stress at the end of the step of n points of one material.
@@ -21,7 +22,9 @@ struct constitutive_model {
   /** m/s, upper bound over n points from bulk density rb [n] kg/m3 and the present state: it limits dt. */
   double (*wave_speed)(const void *prm, int n, const double *rb, const double *stress, const double *history);
   /** J/m3 per present volume, elastic, of n points. */
-  void (*energy)(const void *prm, int n, const double *F, const double *stress, double *energy);
+  void (*energy)(const void *prm, int n, const double *F, const double *stress, const double *history, double *energy);
+  /** History of n points that start with that stress; NULL: it starts at zero. */
+  void (*start)(const void *prm, int n, const double *stress, double *history);
   /** Pa: constrained (oedometer) modulus at the start, and the ratio of lateral to vertical effective stress at rest.
    */
   double (*oedometer_modulus)(const void *prm);

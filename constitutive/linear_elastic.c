@@ -41,10 +41,10 @@ static double wave_speed(const void *prm, int n, const double *rb, const double 
 }
 
 /* s:s (1 + nu) - nu tr(s)^2 over 2 E */
-static void energy(const void *prm, int n, const double *F, const double *stress, double *energy)
+static void energy(const void *prm, int n, const double *F, const double *stress, const double *history, double *energy)
 {
   const struct isotropic *e = prm;
-  (void)F;
+  (void)F, (void)history;
   for (int p = 0; p < n; p++) {
     const double *s = &stress[6L * p];
     double        trace = s[XX] + s[YY] + s[ZZ];

@@ -84,10 +84,10 @@ static double wave_speed(const void *prm, int n, const double *rb, const double 
   return sqrt(fmax(0.0, (lambda + 2.0 * mu - 2.0 * lambda * log_J) * exp(-log_J) + highest) / lightest);
 }
 
-static void energy(const void *prm, int n, const double *F, const double *stress, double *energy)
+static void energy(const void *prm, int n, const double *F, const double *stress, const double *history, double *energy)
 {
   double lambda = isotropic_lambda(prm), mu = isotropic_shear(prm);
-  (void)stress;
+  (void)stress, (void)history;
   for (int p = 0; p < n; p++) {
     struct deformation d;
     measure(&F[9L * p], &d);

@@ -20,9 +20,9 @@ static double wave_speed(const void *prm, int n, const double *rb, const double 
   return 0.0;
 }
 
-static void energy(const void *prm, int n, const double *F, const double *stress, double *energy)
+static void energy(const void *prm, int n, const double *F, const double *stress, const double *history, double *energy)
 {
-  (void)prm, (void)F, (void)stress;
+  (void)prm, (void)F, (void)stress, (void)history;
   memset(energy, 0, (size_t)n * sizeof *energy);
 }
 

@@ -18,8 +18,10 @@ enum { FIELD_POISON = 1 };
 enum { FIELD_POISON = 0 };
 #endif
 
-/* components: a number, or one that depends on the dimension */
-enum { VECTOR = -1, MATRIX = -2, SYMMETRIC = 6 };
+/* components: a number, or one that depends on the dimension, or on the materials (history of their laws) */
+enum { VECTOR = -1, MATRIX = -2, HISTORY = -3, SYMMETRIC = 6 };
+
+struct scene;
 
 struct field {
   const char     *name; /* suffix _nc _cc _fc _p says where */
@@ -31,11 +33,8 @@ struct field {
   size_t          offset; /* of the double * in the module's state */
 };
 
-/** Components for a dimension. */
-static inline int field_components(const struct field *f, int dim)
-{
-  return f->components == VECTOR ? dim : f->components == MATRIX ? dim * dim : f->components;
-}
+/** Components of a field in this scene. */
+int field_components(const struct field *f, const struct scene *scene);
 
 /* A module's state starts with   FIELDS_MEMBERS   and its table is made with   FIELDS_TABLE(struct mpm).
  * FIELD(name, at, components, kind, output, unit, meaning) */

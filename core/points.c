@@ -161,13 +161,13 @@ void points_permute(struct points *p, int components, double *array)
   for (long q = 0; q < p->n; q++) memcpy(array + q * components, p->shelf + q * components, row);
 }
 
-void points_permute_fields(struct points *p, int dim, enum where at, const struct field *fields, int n_fields,
-                           void *state)
+void points_permute_fields(struct points *p, const struct scene *scene, enum where at, const struct field *fields,
+                           int n_fields, void *state)
 {
   for (int i = 0; i < n_fields; i++) {
     double *array = *(double **)((char *)state + fields[i].offset);
     if (fields[i].at == at && fields[i].kind == STATE && array)
-      points_permute(p, field_components(&fields[i], dim), array);
+      points_permute(p, field_components(&fields[i], scene), array);
   }
 }
 

@@ -43,8 +43,8 @@ enum status points_sort(const struct grid *g, struct points *p, const double *x)
 /** Brings one array [n][components] into the order of the last sort. */
 void points_permute(struct points *p, int components, double *array);
 /** Brings every STATE field of a table that lives at `at` into that order; a NULL field is not planned. */
-void points_permute_fields(struct points *p, int dim, enum where at, const struct field *fields, int n_fields,
-                           void *state);
+void points_permute_fields(struct points *p, const struct scene *scene, enum where at, const struct field *fields,
+                           int n_fields, void *state);
 /** To be called after the last points_permute of a sort: the groups follow. */
 void points_sorted(struct points *p);
 

@@ -159,6 +159,7 @@ struct scene {
   char                  start_from[FOLDER_LENGTH]; /* folder of the run whose end is this one's start; "": none */
   int                   seed;
   int                   n_materials, n_solids, n_loads, n_tracers, n_gauges, n_references, n_metrics;
+  int                   n_history; /* doubles of history per solid point, the most that a law of the scene wants */
   struct material      *materials;
   struct solid         *solids;
   struct load          *loads;

@@ -24,6 +24,8 @@ static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && 
 static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
 static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers > 0; }
 static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
+static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0; }
+static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
 static bool musl(const struct scene *sc) { return mpm_solid_moves(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
 
 static const struct field fields[] = {
@@ -55,7 +57,10 @@ static const struct stage stages[] = {
     {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "x_p mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
     {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3",
-     "only when a solid moves", mpm_solid_moves, mpm_update_stress, mpm_stress_dt},
+     "only when a solid moves, no law with history", plain_law, mpm_update_stress, mpm_stress_dt},
+    {"mpm.update_stress_and_history", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",
+     "F_p stress_p volume_p history_p", "1.3", "only when a law of the scene has a history", historic,
+     mpm_update_stress, mpm_stress_dt},
 };
 
 static enum status count(const struct scene *scene, long n[], int groups[])
@@ -73,7 +78,7 @@ static enum status create(struct sim *sim, void *state)
   m->kernels = kernels_find(sim->grid.dim, sim->scene->numerics.basis);
   m->moves = mpm_solid_moves(sim->scene);
   kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
-  TRY(NEW(&m->run_speed, 2 * m->points->n_runs));
+  TRY(NEW(&m->run_speed, RUN_SPEEDS * m->points->n_runs));
   TRY(mpm_create_points(sim, m));
   TRY(mpm_start_stress(sim, m));
   TRY(mpm_create_markers(sim, m));
@@ -138,7 +143,8 @@ static void measure_point(const struct sim *sim, const struct mpm *m, const doub
   if (material->model->held) return;
   double F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, energy = 0;
   for (int q = 0; q < dim * dim; q++) F[q / dim * 3 + q % dim] = m->F_p[p * dim * dim + q];
-  material->model->energy(material->model_params, 1, F, m->stress_p + 6 * p, &energy);
+  material->model->energy(material->model_params, 1, F, m->stress_p + 6 * p,
+                          m->history_p ? m->history_p + sim->scene->n_history * p : NULL, &energy);
   l->v[LEDGER_elastic] += energy * m->volume_p[p] - half_step_power(sim, m, gravity, p);
   measure_motion(sim, m, p, l);
 }
@@ -150,6 +156,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   sim_gravity(sim, sim->t, gravity);
   for (long p = 0; p < m->points->n && m->mass_p; p++) measure_point(sim, m, gravity, p, l);
   l->v[LEDGER_work_loads] += m->now.work_loads;
+  l->v[LEDGER_plastic] += m->now.plastic;
 }
 
 const struct module module_mpm = {

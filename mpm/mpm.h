@@ -16,8 +16,9 @@ struct mpm {
   struct mpm_numbers {
     double wave_speed, speed; /* m/s, largest of all points, of the last step */
     double work_loads;        /* J, since the start */
+    double plastic;           /* J lost to plastic flow, since the start */
   } now;
-  double *run_speed;          /* [n_runs][2] what they were made of */
+  double *run_speed;          /* [n_runs][3] what they were made of: speeds, and the plastic work of the step */
   long   *marker_end;         /* [loads + tracers] markers of item i end here */
   double *marker_area;        /* [markers] m2 (m in 2D); 0: tracer */
   double (*marker_normal)[3]; /* outward, for pressure loads */

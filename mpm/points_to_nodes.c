@@ -20,7 +20,7 @@ enum status mpm_sort_points(struct sim *sim, double dt)
 enum status mpm_sort_now(struct sim *sim, struct mpm *m)
 {
   TRY(points_sort(&sim->grid, m->points, m->x_p));
-  points_permute_fields(m->points, sim->grid.dim, AT_SOLID, module_mpm.fields, module_mpm.n_fields, m);
+  points_permute_fields(m->points, sim->scene, AT_SOLID, module_mpm.fields, module_mpm.n_fields, m);
   points_sorted(m->points);
   return OK;
 }

@@ -4,6 +4,9 @@
 
 #include "mpm/mpm.h"
 
+/* what a run of points reports after a stress update: wave speed, speed, plastic work */
+enum { RUN_SPEEDS = 3 };
+
 enum status mpm_sort_points(struct sim *sim, double dt);
 enum status mpm_points_to_nodes(struct sim *sim, double dt);
 enum status mpm_load_surfaces(struct sim *sim, double dt);

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum { BATCH = 64 };
+enum { BATCH = 64, MAX_HISTORY = 16 };
 
 /* a dim x dim matrix as 3 x 3, one on the rest of the diagonal (plane strain) */
 static inline void widen(int dim, const double *a, double b[9])
@@ -30,26 +30,41 @@ static void strain_batch(struct mpm *m, int dim, double dt, long p0, int n, doub
   }
 }
 
-/* largest wave speed and speed of the batch into fastest[2] */
-static void speeds(const struct mpm *m, const struct material *material, int dim, long p0, int n, double fastest[2])
+/* history of a batch of a law: scene arrays hold the most that a law wants, [n][scene->n_history] */
+static void copy_history(int n, int from_width, const double *from, int to_width, double *to)
+{
+  int least = from_width < to_width ? from_width : to_width;
+  for (int i = 0; i < n; i++) memcpy(to + (long)i * to_width, from + (long)i * from_width, (size_t)least * sizeof *to);
+}
+
+/* what a run of points adds to the state: largest wave speed and speed (m/s), plastic work of the step (J) */
+static void survey(const struct mpm *m, const struct material *material, int dim, long p0, int n, const double *history,
+                   double seen[RUN_SPEEDS])
 {
   double rb[BATCH];
   for (int i = 0; i < n; i++) {
     double v2 = 0;
     for (int d = 0; d < dim; d++) v2 += m->vel_p[(p0 + i) * dim + d] * m->vel_p[(p0 + i) * dim + d];
     rb[i] = m->mass_p[p0 + i] / m->volume_p[p0 + i];
-    fastest[1] = fmax(fastest[1], sqrt(v2));
+    seen[1] = fmax(seen[1], sqrt(v2));
   }
-  fastest[0] = fmax(fastest[0], material->model->wave_speed(material->model_params, n, rb, m->stress_p + p0 * 6, NULL));
+  seen[0] = fmax(seen[0], material->model->wave_speed(material->model_params, n, rb, m->stress_p + p0 * 6, history));
 }
 
-static int update_batch(struct mpm *m, const struct material *material, int dim, double dt, long p0, int n,
-                        double fastest[2])
+static int update_batch(struct mpm *m, const struct scene *scene, const struct material *material, double dt, long p0,
+                        int n, double seen[RUN_SPEEDS])
 {
-  double dF[BATCH][9], F[BATCH][9];
-  strain_batch(m, dim, dt, p0, n, dF, F);
-  int bad = material->model->update(material->model_params, n, dt, dF[0], F[0], m->stress_p + p0 * 6, NULL, NULL);
-  speeds(m, material, dim, p0, n, fastest);
+  const struct constitutive_model *model = material->model;
+  double                           dF[BATCH][9], F[BATCH][9], work[BATCH], own[BATCH * MAX_HISTORY], *history = NULL;
+  double                          *all = m->history_p ? m->history_p + p0 * scene->n_history : NULL;
+  strain_batch(m, scene->dim, dt, p0, n, dF, F);
+  if (model->n_history > 0) history = model->n_history == scene->n_history ? all : own;
+  if (history == own) copy_history(n, scene->n_history, all, model->n_history, own);
+  int bad = model->update(material->model_params, n, dt, dF[0], F[0], m->stress_p + p0 * 6, history,
+                          model->n_history > 0 ? work : NULL);
+  if (history == own) copy_history(n, model->n_history, own, scene->n_history, all);
+  for (int i = 0; i < n && history; i++) seen[2] += work[i] * m->volume_p[p0 + i];
+  survey(m, material, scene->dim, p0, n, history, seen);
   return bad;
 }
 
@@ -57,8 +72,10 @@ static void reduce_speeds(struct mpm *m)
 {
   m->now.wave_speed = m->now.speed = 0;
   for (long r = 0; r < m->points->n_runs; r++) {
-    m->now.wave_speed = fmax(m->now.wave_speed, m->run_speed[2 * r]);
-    m->now.speed = fmax(m->now.speed, m->run_speed[2 * r + 1]);
+    const double *seen = m->run_speed + RUN_SPEEDS * r;
+    m->now.wave_speed = fmax(m->now.wave_speed, seen[0]);
+    m->now.speed = fmax(m->now.speed, seen[1]);
+    m->now.plastic += seen[2];
   }
 }
 
@@ -70,12 +87,12 @@ enum status mpm_update_stress(struct sim *sim, double dt)
   PARALLEL_FOR_DYNAMIC
   for (long r = 0; r < points->n_runs; r++) {
     const struct material *material = &sim->scene->materials[r % points->n_groups];
-    double                *fastest = m->run_speed + 2 * r;
-    fastest[0] = fastest[1] = 0;
+    double                *seen = m->run_speed + RUN_SPEEDS * r;
+    memset(seen, 0, RUN_SPEEDS * sizeof *seen);
     if (material->model->held) continue;
     for (long p = points->start[r]; p < points->start[r + 1]; p += BATCH) {
       long left = points->start[r + 1] - p;
-      int  failed = update_batch(m, material, sim->grid.dim, dt, p, left < BATCH ? (int)left : BATCH, fastest);
+      int  failed = update_batch(m, sim->scene, material, dt, p, left < BATCH ? (int)left : BATCH, seen);
 #pragma omp atomic
       bad += failed;
     }
@@ -114,8 +131,13 @@ enum status mpm_first_speeds(struct sim *sim, struct mpm *m)
     const struct material *material = &sim->scene->materials[r % points->n_groups];
     if (material->model->held) continue;
     for (long p = points->start[r]; p < points->start[r + 1]; p += BATCH) {
-      long left = points->start[r + 1] - p;
-      speeds(m, material, sim->grid.dim, p, left < BATCH ? (int)left : BATCH, m->run_speed + 2 * r);
+      long   left = points->start[r + 1] - p;
+      int    n = left < BATCH ? (int)left : BATCH, width = material->model->n_history;
+      double own[BATCH * MAX_HISTORY], *all = m->history_p ? m->history_p + p * sim->scene->n_history : NULL;
+      if (material->model->start) material->model->start(material->model_params, n, m->stress_p + p * 6, own);
+      if (material->model->start) copy_history(n, width, own, sim->scene->n_history, all);
+      if (width > 0) copy_history(n, sim->scene->n_history, all, width, own);
+      survey(m, material, sim->grid.dim, p, n, width > 0 ? own : NULL, m->run_speed + RUN_SPEEDS * r);
     }
   }
   reduce_speeds(m);

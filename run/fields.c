@@ -1,6 +1,8 @@
 /* Walks the field tables of the planned modules: what output, checkpoint, gauges and metrics know of them. */
 #include "run/fields.h"
 
+#include "constitutive/constitutive.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -33,7 +35,7 @@ bool fields_next(const struct sim *sim, int *cursor, struct field_view *view)
     const struct field *f = &sim->modules[m]->fields[i];
     double             *data = data_of(sim, m, f);
     if (!data) return fields_next(sim, cursor, view);
-    *view = (struct field_view){sim->modules[m], f, data, field_components(f, sim->grid.dim), entries(sim, f->at)};
+    *view = (struct field_view){sim->modules[m], f, data, field_components(f, sim->scene), entries(sim, f->at)};
     return true;
   }
   return false;
@@ -82,7 +84,20 @@ const char *fields_set(enum where at)
   }
 }
 
-const char *fields_suffix(const struct field *f, int dim, int component)
+/* name of a history component where all laws of the scene that have it agree; NULL: they do not */
+static const char *history_name(const struct scene *scene, int component)
+{
+  const char *name = NULL;
+  for (int i = 0; i < scene->n_materials; i++) {
+    const struct constitutive_model *model = scene->materials[i].model;
+    if (component >= model->n_history) continue;
+    if (name && strcmp(name, model->history[component]) != 0) return NULL;
+    name = model->history[component];
+  }
+  return name;
+}
+
+const char *fields_suffix(const struct field *f, const struct scene *scene, int component)
 {
   static const char *const vector[] = {"x", "y", "z"}, *const symmetric[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
   static const char *const matrix[] = {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
@@ -95,16 +110,18 @@ const char *fields_suffix(const struct field *f, int dim, int component)
   case SYMMETRIC:
     return symmetric[component];
   case MATRIX:
-    return matrix[component / dim * 3 + component % dim];
+    return matrix[component / scene->dim * 3 + component % scene->dim];
+  case HISTORY:
+    return history_name(scene, component) ? history_name(scene, component) : number[component % 10];
   default:
     return component < 10 ? number[component] : "?";
   }
 }
 
 /* Whether `of`, without a set in front, is component c of the field. */
-static bool is_component(const struct field *f, int dim, int c, const char *of)
+static bool is_component(const struct field *f, const struct scene *scene, int c, const char *of)
 {
-  const char *suffix = fields_suffix(f, dim, c);
+  const char *suffix = fields_suffix(f, scene, c);
   size_t      n = strlen(f->output);
   if (strncmp(of, f->output, n) != 0) return false;
   return *suffix ? of[n] == '_' && strcmp(of + n + 1, suffix) == 0 : of[n] == '\0';
@@ -118,7 +135,7 @@ static bool find(const struct sim *sim, enum where at, const char *of, struct fi
   while (fields_next(sim, &cursor, view))
     for (*component = 0; *component < view->components; (*component)++)
       if (view->field->at == at && view->field->output &&
-          is_component(view->field, sim->grid.dim, *component, dot ? dot + 1 : of))
+          is_component(view->field, sim->scene, *component, dot ? dot + 1 : of))
         return true;
   return false;
 }
@@ -131,7 +148,7 @@ static enum status unknown(const struct sim *sim, const char *of)
   struct field_view v;
   while (fields_next(sim, &cursor, &v))
     for (int c = 0; v.field->output && fields_set(v.field->at) && c < v.components && n < sizeof list; c++) {
-      const char *suffix = fields_suffix(v.field, sim->grid.dim, c);
+      const char *suffix = fields_suffix(v.field, sim->scene, c);
       n += (size_t)snprintf(list + n, sizeof list - n, "%s%s.%s%s%s", n ? ", " : "", fields_set(v.field->at),
                             v.field->output, *suffix ? "_" : "", suffix);
     }

@@ -35,6 +35,6 @@ enum status fields_component(const struct sim *sim, const char *of, struct field
 /** Name of the written set: cells, solid, water; NULL for places that are not written. */
 const char *fields_set(enum where at);
 /** Suffix of a component, "x", "yy", "3"; "" for a scalar. */
-const char *fields_suffix(const struct field *f, int dim, int component);
+const char *fields_suffix(const struct field *f, const struct scene *scene, int component);
 
 #endif

@@ -104,34 +104,36 @@ static enum status mesh_of_cells(const struct grid *g, struct mesh *m)
 
 /* ---- values, made ready ---- */
 
-static int padded_components(const struct field *f)
+static int padded_components(const struct field_view *v)
 {
-  return f->components == VECTOR ? 3 : f->components == MATRIX ? 9 : f->components;
+  const int components = v->field->components;
+  return components == VECTOR ? 3 : components == MATRIX ? 9 : v->components;
 }
 
 /* One entry with the missing components of 2D as zeros. */
-static void pad(const struct field *f, int dim, const double *v, double *padded)
+static void pad(const struct field_view *v, int dim, long entry, double *padded)
 {
-  const int n = padded_components(f);
-  if (f->components != VECTOR && f->components != MATRIX) {
-    memcpy(padded, v, (size_t)n * sizeof *v);
+  const double *own = &v->data[entry * v->components];
+  const int     n = padded_components(v);
+  if (n == v->components) {
+    memcpy(padded, own, (size_t)n * sizeof *own);
     return;
   }
-  memset(padded, 0, (size_t)n * sizeof *v);
-  for (int i = 0; i < field_components(f, dim); i++) padded[i / dim * 3 + i % dim] = v[i];
+  memset(padded, 0, (size_t)n * sizeof *own);
+  for (int i = 0; i < v->components; i++) padded[i / dim * 3 + i % dim] = own[i];
 }
 
 static void make_ready(const struct grid *g, const struct field_view *v, double *values)
 {
-  const int        n = padded_components(v->field);
+  const int        n = padded_components(v);
   const struct box cells = grid_cells(g);
   if (v->field->at != AT_CELL) {
-    for (long p = 0; p < v->n; p++) pad(v->field, g->dim, &v->data[p * v->components], &values[p * n]);
+    for (long p = 0; p < v->n; p++) pad(v, g->dim, p, &values[p * n]);
     return;
   }
   FOR_BOX_SERIAL(g, cells, c)
   {
-    pad(v->field, g->dim, &v->data[c * v->components], values);
+    pad(v, g->dim, c, values);
     values += n;
   }
 }
@@ -229,7 +231,7 @@ static enum status write_field(const struct output_writer *o, struct h5 *h, cons
                                const struct field_view *v)
 {
   char       name[2 * NAME_LENGTH];
-  const int  n = padded_components(v->field);
+  const int  n = padded_components(v);
   const long rows = v->field->at == AT_CELL ? o->mesh[0].n_cells : v->n;
   snprintf(name, sizeof name, "VTKHDF/%s/%s", v->field->at == AT_CELL ? "CellData" : "PointData", v->field->output);
   make_ready(g, v, o->values);
@@ -252,7 +254,7 @@ static enum status place_points(const struct sim *sim, enum where at, const stru
   if (!fields_positions(sim, at, &x))
     return FAIL(ERR_INPUT, "output: no module of this run holds positions of the %s points", fields_set(at));
   m->n_points = m->n_cells = m->n_corners = p->n;
-  for (long i = 0; i < p->n; i++) pad(x.field, sim->grid.dim, &x.data[i * x.components], &m->x[3 * i]);
+  for (long i = 0; i < p->n; i++) pad(&x, sim->grid.dim, i, &m->x[3 * i]);
   return OK;
 }
 

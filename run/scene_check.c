@@ -106,11 +106,15 @@ static enum status check_material(struct reader *reader, const struct scene *sce
   return OK;
 }
 
-static enum status check_materials(struct reader *reader, const struct scene *scene)
+static enum status check_materials(struct reader *reader, struct scene *scene)
 {
   if (scene->n_materials > 255)
     return reader_fail(at(reader, "materials"), "%d are more than 255; merge some", scene->n_materials);
-  for (int i = 0; i < scene->n_materials; i++) TRY(check_material(reader, scene, &scene->materials[i]));
+  for (int i = 0; i < scene->n_materials; i++) {
+    TRY(check_material(reader, scene, &scene->materials[i]));
+    if (scene->materials[i].model->n_history > scene->n_history)
+      scene->n_history = scene->materials[i].model->n_history;
+  }
   return OK;
 }
 

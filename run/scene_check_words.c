@@ -36,8 +36,8 @@ static void add_fields(const struct scene *scene, struct words *words, bool with
     for (int k = 0; takes_part(scene, all_modules[i]) && k < all_modules[i]->n_fields; k++) {
       const struct field *f = &all_modules[i]->fields[k];
       if (!f->output || !fields_set(f->at)) continue;
-      for (int c = 0; c < field_components(f, scene->dim); c++)
-        add_word(words, with_set ? fields_set(f->at) : "", f->output, fields_suffix(f, scene->dim, c));
+      for (int c = 0; c < field_components(f, scene); c++)
+        add_word(words, with_set ? fields_set(f->at) : "", f->output, fields_suffix(f, scene, c));
     }
 }
 

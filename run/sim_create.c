@@ -9,7 +9,7 @@
 /* number of doubles of a field */
 static size_t field_length(const struct sim *sim, const struct field *f)
 {
-  size_t n = (size_t)field_components(f, sim->grid.dim);
+  size_t n = (size_t)field_components(f, sim->scene);
   switch (f->at) {
   case AT_NODE:
   case AT_CELL:
@@ -57,7 +57,8 @@ static enum status create_points(const struct scene *scene, const struct plan *p
   TRY(sim_count_points(scene, plan, n, groups));
   sim->n_markers = (int)n[COUNT_MARKERS];
   for (int s = 0; s < N_SETS; s++)
-    if (n[s] > 0) TRY(points_create(&sim->grid, n[s], groups[s], 9, &sim->points[s]));
+    if (n[s] > 0)
+      TRY(points_create(&sim->grid, n[s], groups[s], scene->n_history > 9 ? scene->n_history : 9, &sim->points[s]));
   return OK;
 }
 

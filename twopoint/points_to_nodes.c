@@ -7,7 +7,7 @@
 enum status twopoint_sort_now(struct sim *sim, struct twopoint *w)
 {
   TRY(points_sort(&sim->grid, w->points, w->x_w));
-  points_permute_fields(w->points, sim->grid.dim, AT_WATER, module_twopoint.fields, module_twopoint.n_fields, w);
+  points_permute_fields(w->points, sim->scene, AT_WATER, module_twopoint.fields, module_twopoint.n_fields, w);
   points_sorted(w->points);
   return OK;
 }

@@ -38,7 +38,7 @@ static void point_step(struct point *p, const double dF[9])
 static double point_energy(const struct point *p)
 {
   double energy;
-  p->law->energy(&p->prm, 1, p->F, p->stress, &energy);
+  p->law->energy(&p->prm, 1, p->F, p->stress, p->history, &energy);
   return energy;
 }
 
@@ -355,12 +355,12 @@ static void array_equals_point(struct point *p)
     for (int k = 0; k < 6; k++) start[6 * i + k] = all[6 * i + k] = 1e-3 * p->modulus * battery_random(&seed);
   }
   int bad = p->law->update(&p->prm, N, 1e-3, dF, F, all, history, work);
-  p->law->energy(&p->prm, N, F, all, energy);
+  p->law->energy(&p->prm, N, F, all, history, energy);
   ck_assert_int_eq(bad, 0);
   for (int i = 0; i < N; i++) {
     double own[MAX_HISTORY] = {0}, own_work, own_energy, *s = &start[6 * i];
     p->law->update(&p->prm, 1, 1e-3, &dF[9 * i], &F[9 * i], s, own, &own_work);
-    p->law->energy(&p->prm, 1, &F[9 * i], s, &own_energy);
+    p->law->energy(&p->prm, 1, &F[9 * i], s, own, &own_energy);
     ck_assert_msg(memcmp(s, &all[6 * i], 6 * sizeof *s) == 0, "%s: stress of point %d depends on its company",
                   p->law->name, i);
     ck_assert_msg(memcmp(own, &history[n_history * i], (size_t)n_history * sizeof *own) == 0,

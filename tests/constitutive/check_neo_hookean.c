@@ -61,7 +61,7 @@ START_TEST(energy_is_a_potential)
       double moved[9];
       memcpy(moved, F, sizeof moved);
       moved[k] += side ? step : -step;
-      law()->energy(&prm, 1, moved, stress, &psi[side]);
+      law()->energy(&prm, 1, moved, stress, NULL, &psi[side]);
       psi[side] *= tensor_determinant(moved);
     }
     P[k] = (psi[1] - psi[0]) / (2.0 * step);

@@ -242,7 +242,7 @@ START_TEST(fields_follow_the_sort)
   double unsorted[N];
   memcpy(unsorted, c.tag, sizeof unsorted);
   must(points_sort(&c.g, c.points, c.x));
-  points_permute_fields(c.points, 2, AT_SOLID, fields, 4, &h);
+  points_permute_fields(c.points, &(struct scene){.dim = 2}, AT_SOLID, fields, 4, &h);
   points_permute(c.points, 1, c.tag);
   ck_assert_mem_eq(h.state, c.tag, sizeof unsorted);
   ck_assert_mem_eq(h.scratch, unsorted, sizeof unsorted);

@@ -71,7 +71,7 @@ static void fake_allocate(struct fake_run *r)
     const struct field *f = &fake_fields[i];
     double             *data;
     if (strcmp(f->name, "absent_p") == 0) continue;
-    fake_ok(NEW(&data, count[f->at] * field_components(f, sim->grid.dim)));
+    fake_ok(NEW(&data, count[f->at] * field_components(f, sim->scene)));
     memcpy((char *)&r->state + f->offset, &data, sizeof data);
   }
 }
