@@ -31,6 +31,8 @@ struct material {
 struct solid {
   char            name[NAME_LENGTH];
   int             material;
+  char            part_of[NAME_LENGTH]; /* solids with the same word are one body; "": a body of its own */
+  int             body;                 /* 0 in a scene without contact */
   struct shape    shape;
   struct function velocity[3]; /* m/s at the start */
 };
@@ -120,6 +122,15 @@ struct metric {
   double          offset; /* added to the gauge before comparing */
 };
 
+/* Bodies that meet: each has its own velocities at the nodes. */
+enum contact_normal { NORMAL_DIFFERENCE, NORMAL_LARGER };
+enum contact_detection { DETECT_REACH, DETECT_APPROACH };
+struct contact {
+  bool   present;
+  double friction; /* Coulomb coefficient; INFINITY: bodies that touch stick */
+  int    normal, detection;
+};
+
 enum { FOLDER_LENGTH = 1024 };
 
 enum start_kind { START_AT_REST, START_ZERO };
@@ -159,6 +170,8 @@ struct scene {
   char                  start_from[FOLDER_LENGTH]; /* folder of the run whose end is this one's start; "": none */
   int                   seed;
   int                   n_materials, n_solids, n_loads, n_tracers, n_gauges, n_references, n_metrics;
+  int                   n_bodies; /* velocity fields of the solid: 1 without contact */
+  struct contact        contact;
   int                   n_history; /* doubles of history per solid point, the most that a law of the scene wants */
   struct material      *materials;
   struct solid         *solids;
@@ -173,6 +186,12 @@ struct scene {
   void                 *module_params[MAX_MODULES]; /* in the order of run/modules.def */
   struct output         output;
 };
+
+/** What a point of the solid is made of: points are grouped by the solid they come from. */
+static inline const struct material *scene_material(const struct scene *scene, int group)
+{
+  return &scene->materials[scene->solids[group].material];
+}
 
 /** Parameters of a module, as its table filled them. */
 const void *scene_module_params(const struct scene *scene, const struct module *module);

@@ -54,7 +54,7 @@ enum status coupling_gather_media(struct sim *sim, double dt)
   clear(&sim->grid, c->fineness_nc);
   FOR_RUNS(m->points, &sim->grid, run, group)
   {
-    const struct material *material = &sim->scene->materials[group];
+    const struct material *material = scene_material(sim->scene, group);
     double                 kappa = coupling_permeability(sim->scene, material), D = material->grain_diameter;
     struct scatter_args    args = {
            .n = 2, .x = m->x_p, .weight = m->volume_p, .node = {c->conductance_nc, c->fineness_nc}};

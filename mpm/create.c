@@ -64,7 +64,7 @@ static void place_point(const struct scene *scene, struct mpm *m, long p, const 
     if (m->vel_p) m->vel_p[p * dim + d] = function_value(&solid->velocity[d], x, 0);
     if (m->F_p) m->F_p[(p * dim + d) * dim + d] = 1;
   }
-  m->points->group[p] = (unsigned char)solid->material;
+  m->points->group[p] = (unsigned char)(solid - scene->solids);
 }
 
 /* affine matrix of the starting velocity by central differences, so that a spinning body starts with its whole spin */
@@ -132,7 +132,7 @@ enum status mpm_start_stress(struct sim *sim, struct mpm *m)
   at_rest_up(scene, up, &g);
   if (scene->start != START_AT_REST || g == 0 || !m->stress_p) return OK;
   for (long p = 0; p < m->points->n; p++) {
-    const struct material *material = &scene->materials[m->points->group[p]];
+    const struct material *material = scene_material(scene, m->points->group[p]);
     struct rest            rest;
     double                 x[3] = {0}, stress[9];
     for (int d = 0; d < scene->dim; d++) x[d] = m->x_p[p * scene->dim + d];
@@ -221,6 +221,20 @@ long mpm_count_markers(const struct scene *scene)
   return n;
 }
 
+/* body whose solid is nearest to a marker at x [dim] */
+static int nearest_body(const struct scene *scene, const double *x)
+{
+  double place[3] = {0}, least = INFINITY;
+  int    body = 0;
+  for (int d = 0; d < scene->dim; d++) place[d] = x[d];
+  for (int s = 0; s < scene->n_solids; s++) {
+    double distance = shape_distance(&scene->solids[s].shape, place);
+    if (distance < least) body = scene->solids[s].body;
+    least = fmin(least, distance);
+  }
+  return body;
+}
+
 enum status mpm_create_markers(struct sim *sim, struct mpm *m)
 {
   const struct scene *scene = sim->scene;
@@ -230,6 +244,7 @@ enum status mpm_create_markers(struct sim *sim, struct mpm *m)
   TRY(NEW(&m->marker_end, scene->n_loads + scene->n_tracers));
   TRY(NEW(&m->marker_area, m->n_markers));
   TRY(NEW(&m->marker_normal, m->n_markers));
+  TRY(NEW(&m->marker_body, m->n_markers));
   if (!m->x_m) return OK;
   for (int i = 0; i < scene->n_loads; i++) {
     n += place_load(scene, &scene->loads[i], n, m);
@@ -240,6 +255,7 @@ enum status mpm_create_markers(struct sim *sim, struct mpm *m)
     m->marker_end[scene->n_loads + i] = ++n;
   }
   memcpy(m->x0_m, m->x_m, (size_t)(n * dim) * sizeof(double));
+  for (long i = 0; i < n; i++) m->marker_body[i] = nearest_body(scene, m->x_m + i * dim);
   return OK;
 }
 

@@ -4,6 +4,9 @@
 
 #include "mpm/mpm.h"
 
+/** Node arrays of the bodies. */
+enum status mpm_create_bodies(struct sim *sim, struct mpm *m) MUST_CHECK;
+void        mpm_destroy_bodies(struct mpm *m);
 /** Points of every solid on their lattice, unstressed, with the scene's velocity. */
 enum status mpm_create_points(struct sim *sim, struct mpm *m) MUST_CHECK;
 /** Geostatic stress where the scene starts at rest. */

@@ -93,15 +93,16 @@ static void surface_weights(const struct sim *sim, const struct mpm *m, long i, 
  * too low. On a periodic axis a marker's place counts its turns, its weights do not. */
 static void marker_weights(const struct sim *sim, const struct mpm *m, long i, long *node, double *w)
 {
-  int    dim = sim->grid.dim, n = m->kernels->n_support;
-  double x[3] = {0}, heaviest = 0, kept = 0;
+  int           dim = sim->grid.dim, n = m->kernels->n_support;
+  double        x[3] = {0}, heaviest = 0, kept = 0;
+  const double *mass_nc = m->bodies[m->marker_body[i]].mass_nc;
   memcpy(x, m->x_m + i * dim, (size_t)dim * sizeof *x);
   points_wrap(&sim->grid, 1, x);
   m->kernels->weights(&m->kernel_grid, x, node, w, NULL);
   if (m->marker_area[i] > 0 && m->kernels->basis != BASIS_LINEAR) surface_weights(sim, m, i, x, node, w);
-  for (int q = 0; q < n; q++) heaviest = fmax(heaviest, w[q] != 0 ? m->mass_nc[node[q]] : 0);
+  for (int q = 0; q < n; q++) heaviest = fmax(heaviest, w[q] != 0 ? mass_nc[node[q]] : 0);
   for (int q = 0; q < n; q++) {
-    if (m->mass_nc[node[q]] <= light_node * heaviest) w[q] = 0;
+    if (mass_nc[node[q]] <= light_node * heaviest) w[q] = 0;
     kept += w[q];
   }
   for (int q = 0; q < n; q++) w[q] = kept > 0 ? w[q] / kept : 0;
@@ -117,7 +118,7 @@ static void marker_velocity(const struct sim *sim, const struct mpm *m, long i, 
   marker_weights(sim, m, i, node, w);
   memset(vel, 0, 3 * sizeof *vel);
   for (int q = 0; q < m->kernels->n_support; q++)
-    for (int d = 0; d < dim; d++) vel[d] += w[q] * m->vel_new_nc[node[q] * dim + d];
+    for (int d = 0; d < dim; d++) vel[d] += w[q] * m->bodies[m->marker_body[i]].vel_new_nc[node[q] * dim + d];
 }
 
 enum status mpm_load_surfaces(struct sim *sim, double dt)
@@ -131,9 +132,10 @@ enum status mpm_load_surfaces(struct sim *sim, double dt)
       marker_weights(sim, m, i, node, w);
       marker_force(sim, m, &sim->scene->loads[k], i, sim->t + 0.5 * dt, force);
       for (int q = 0; q < m->kernels->n_support; q++)
-        for (int d = 0; d < dim; d++) m->force_nc[node[q] * dim + d] += w[q] * force[d];
+        for (int d = 0; d < dim; d++) m->bodies[m->marker_body[i]].force_nc[node[q] * dim + d] += w[q] * force[d];
     }
-  boundary_fold(&m->kernel_grid, sim->scene->solid_side, dim, m->force_nc);
+  for (int b = 0; b < m->n_bodies; b++)
+    boundary_fold(&m->kernel_grid, sim->scene->solid_side, dim, m->bodies[b].force_nc);
   return OK;
 }
 

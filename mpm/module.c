@@ -23,6 +23,7 @@ static bool moves_affine(const struct scene *sc) { return mpm_solid_moves(sc) &&
 static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && !mpm_transfer_affine(sc); }
 static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
 static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers > 0; }
+static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_bodies > 1; }
 static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
 static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0; }
 static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
@@ -47,8 +48,14 @@ static const struct stage stages[] = {
      "only when a solid moves", mpm_solid_moves, mpm_fold_nodes, NULL},
     {"mpm.load_surfaces", SLOT_fold, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads", loaded,
      mpm_load_surfaces, NULL},
+    {"mpm.join_bodies", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.4",
+     "only when bodies are in contact", touching, mpm_join_bodies, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
      mpm_solid_moves, mpm_advance_nodes, NULL},
+    {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_new_nc", "vel_new_nc", "3.4",
+     "only when bodies are in contact", touching, mpm_resolve_contact, NULL},
+    {"mpm.join_velocities", SLOT_nodes, "mass_nc vel_new_nc", "vel_new_nc", "3.4", "only when bodies are in contact",
+     touching, mpm_join_velocities, NULL},
     {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p",
      "3.1", "only when a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
     {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
@@ -67,7 +74,7 @@ static enum status count(const struct scene *scene, long n[], int groups[])
 {
   n[SET_SOLID] = mpm_place_points(scene, NULL, NULL);
   n[COUNT_MARKERS] = mpm_count_markers(scene);
-  groups[SET_SOLID] = scene->n_materials;
+  groups[SET_SOLID] = scene->n_solids;
   return OK;
 }
 
@@ -78,6 +85,7 @@ static enum status create(struct sim *sim, void *state)
   m->kernels = kernels_find(sim->grid.dim, sim->scene->numerics.basis);
   m->moves = mpm_solid_moves(sim->scene);
   kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
+  TRY(mpm_create_bodies(sim, m));
   TRY(NEW(&m->run_speed, RUN_SPEEDS * m->points->n_runs));
   TRY(mpm_create_points(sim, m));
   TRY(mpm_start_stress(sim, m));
@@ -95,6 +103,8 @@ static void destroy(void *state)
   memory_free(&m->marker_end);
   memory_free(&m->marker_area);
   memory_free(&m->marker_normal);
+  memory_free(&m->marker_body);
+  mpm_destroy_bodies(m);
 }
 
 /* momentum, angular momentum (affine part counted) and kinetic energy of point p */
@@ -136,7 +146,7 @@ static double half_step_power(const struct sim *sim, const struct mpm *m, const 
 
 static void measure_point(const struct sim *sim, const struct mpm *m, const double gravity[3], long p, struct ledger *l)
 {
-  const struct material *material = &sim->scene->materials[m->points->group[p]];
+  const struct material *material = scene_material(sim->scene, m->points->group[p]);
   int                    dim = sim->grid.dim;
   l->v[LEDGER_mass_solid] += m->mass_p[p];
   for (int d = 0; d < dim; d++) l->v[LEDGER_potential] -= m->mass_p[p] * gravity[d] * m->x_p[p * dim + d];
@@ -157,6 +167,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   for (long p = 0; p < m->points->n && m->mass_p; p++) measure_point(sim, m, gravity, p, l);
   l->v[LEDGER_work_loads] += m->now.work_loads;
   l->v[LEDGER_plastic] += m->now.plastic;
+  l->v[LEDGER_friction] += m->now.friction;
 }
 
 const struct module module_mpm = {

@@ -5,6 +5,14 @@
 #include "core/sim.h"
 #include "mpm/kernels/kernels.h"
 
+/* What one body has at the nodes. A scene without contact has one body, whose arrays are the fields themselves; with
+ * contact the fields hold what all bodies have together. */
+struct body_nodes {
+  double *mass_nc, *mom_nc, *force_nc, *vel_nc, *vel_new_nc;
+};
+
+struct contact_state; /* mpm/contact.c */
+
 struct mpm {
 #define FIELD FIELD_MEMBER
 #include "mpm/fields.def"
@@ -12,11 +20,16 @@ struct mpm {
   struct kernel_grid    kernel_grid;
   const struct kernels *kernels;
   struct points        *points;
-  double                mass_floor; /* kg: a node with less has no velocity */
+  int                   n_bodies;
+  struct body_nodes    *bodies;      /* [n_bodies] */
+  int                  *marker_body; /* [markers] */
+  struct contact_state *contact;     /* NULL: one body */
+  double                mass_floor;  /* kg: a node with less has no velocity */
   struct mpm_numbers {
     double wave_speed, speed; /* m/s, largest of all points, of the last step */
     double work_loads;        /* J, since the start */
     double plastic;           /* J lost to plastic flow, since the start */
+    double friction;          /* J lost to friction, since the start */
   } now;
   double *run_speed;          /* [n_runs][3] what they were made of: speeds, and the plastic work of the step */
   long   *marker_end;         /* [loads + tracers] markers of item i end here */

@@ -6,6 +6,22 @@
 
 #include <string.h>
 
+/* what a fluid gave to all bodies together (2.4), each takes by its mass */
+static void share_push(const struct sim *sim, struct mpm *m)
+{
+  int dim = sim->grid.dim;
+  PARALLEL_FOR
+  for (long c = 0; c < sim->grid.size; c++) {
+    if (!(m->mass_nc[c] > m->mass_floor)) continue;
+    for (int d = 0; d < dim; d++) {
+      double push = m->force_nc[c * dim + d];
+      for (int b = 0; b < m->n_bodies; b++) push -= m->bodies[b].force_nc[c * dim + d];
+      for (int b = 0; b < m->n_bodies; b++)
+        m->bodies[b].force_nc[c * dim + d] += push * m->bodies[b].mass_nc[c] / m->mass_nc[c];
+    }
+  }
+}
+
 enum status mpm_advance_nodes(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
@@ -15,14 +31,18 @@ enum status mpm_advance_nodes(struct sim *sim, double dt)
   int                          dim = g->dim;
   double                       gravity[3];
   sim_gravity(sim, sim->t + 0.5 * dt, gravity);
-  memcpy(m->vel_new_nc, m->vel_nc, (size_t)(g->size * dim) * sizeof(double));
-  FOR_BOX(g, nodes, c)
-  if (m->mass_nc[c] > m->mass_floor)
-    for (int d = 0; d < dim; d++)
-      m->vel_new_nc[c * dim + d] += dt * (m->force_nc[c * dim + d] / m->mass_nc[c] + gravity[d]);
-  boundary_velocity(g, sides, sim->t + dt, m->vel_new_nc);
-  boundary_ghosts(&m->kernel_grid, sides, dim, sim->t, m->vel_nc);
-  boundary_ghosts(&m->kernel_grid, sides, dim, sim->t + dt, m->vel_new_nc);
+  if (m->n_bodies > 1 && sim->scene->fluid.present) share_push(sim, m);
+  for (int b = 0; b < m->n_bodies; b++) {
+    const struct body_nodes *own = &m->bodies[b];
+    memcpy(own->vel_new_nc, own->vel_nc, (size_t)(g->size * dim) * sizeof(double));
+    FOR_BOX(g, nodes, c)
+    if (own->mass_nc[c] > m->mass_floor)
+      for (int d = 0; d < dim; d++)
+        own->vel_new_nc[c * dim + d] += dt * (own->force_nc[c * dim + d] / own->mass_nc[c] + gravity[d]);
+    boundary_velocity(g, sides, sim->t + dt, own->vel_new_nc);
+    boundary_ghosts(&m->kernel_grid, sides, dim, sim->t, own->vel_nc);
+    boundary_ghosts(&m->kernel_grid, sides, dim, sim->t + dt, own->vel_new_nc);
+  }
   return OK;
 }
 
@@ -43,27 +63,35 @@ enum status mpm_nodes_to_points(struct sim *sim, double dt)
   struct mpm           *m = mpm_of(sim);
   const struct g2p_args args = {.dt = dt,
                                 .beta = mpm_blend(sim, dt),
-                                .vel_old_nc = m->vel_nc,
-                                .vel_nc = m->vel_new_nc,
                                 .x = m->x_p,
                                 .displacement = m->displacement_p,
                                 .vel = m->vel_p,
                                 .affine = m->affine_p,
                                 .gradv = m->gradv_p};
   FOR_RUNS(m->points, &sim->grid, run, group)
-  if (!sim->scene->materials[group].model->held) m->kernels->g2p(&m->kernel_grid, &run, &args);
+  {
+    const struct body_nodes *own = &m->bodies[sim->scene->solids[group].body];
+    struct g2p_args          to_points = args;
+    to_points.vel_old_nc = own->vel_nc;
+    to_points.vel_nc = own->vel_new_nc;
+    if (!scene_material(sim->scene, group)->model->held) m->kernels->g2p(&m->kernel_grid, &run, &to_points);
+  }
   if (m->x_m) mpm_move_markers(sim, m, dt);
   return OK;
 }
 
-void mpm_gather_gradient(struct sim *sim, struct mpm *m, const double *vel_nc)
+void mpm_gather_gradient(struct sim *sim, struct mpm *m)
 {
   int                dim = sim->grid.dim;
   struct gather_args args = {.n = dim, .x = m->x_p, .gradient_stride = dim * dim};
   for (int d = 0; d < dim; d++) {
-    args.node[d] = vel_nc + d;
     args.stride[d] = dim;
     args.gradient[d] = m->gradv_p + d * dim;
   }
-  FOR_RUNS(m->points, &sim->grid, run, group) m->kernels->gather(&m->kernel_grid, &run, &args);
+  FOR_RUNS(m->points, &sim->grid, run, group)
+  {
+    struct gather_args own = args;
+    for (int d = 0; d < dim; d++) own.node[d] = m->bodies[sim->scene->solids[group].body].vel_new_nc + d;
+    m->kernels->gather(&m->kernel_grid, &run, &own);
+  }
 }

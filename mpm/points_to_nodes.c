@@ -30,44 +30,49 @@ static void clear(const struct grid *g, int n, double *field)
   memset(field, 0, (size_t)(g->size * n) * sizeof *field);
 }
 
-static bool held(const struct sim *sim, int group) { return sim->scene->materials[group].model->held; }
+/* whether points of the group move and belong to the body */
+static bool in_body(const struct scene *scene, int group, int body)
+{
+  return scene->solids[group].body == body && !scene_material(scene, group)->model->held;
+}
 
-/* gathers mass and momentum, and with `force` the internal force */
+/* gathers mass and momentum of every body, and with `force` the internal force */
 static void gather_points(struct sim *sim, struct mpm *m, bool force)
 {
-  const struct p2g_args args = {.x = m->x_p,
-                                .vel = m->vel_p,
-                                .affine = m->affine_p,
-                                .mass = m->mass_p,
-                                .volume = m->volume_p,
-                                .stress = force ? m->stress_p : NULL,
-                                .mass_nc = m->mass_nc,
-                                .mom_nc = m->mom_nc,
-                                .force_nc = force ? m->force_nc : NULL};
-  FOR_RUNS(m->points, &sim->grid, run, group) if (!held(sim, group)) m->kernels->p2g(&m->kernel_grid, &run, &args);
+  struct p2g_args args = {.x = m->x_p,
+                          .vel = m->vel_p,
+                          .affine = m->affine_p,
+                          .mass = m->mass_p,
+                          .volume = m->volume_p,
+                          .stress = force ? m->stress_p : NULL};
+  for (int b = 0; b < m->n_bodies; b++) {
+    args.mass_nc = m->bodies[b].mass_nc;
+    args.mom_nc = m->bodies[b].mom_nc;
+    args.force_nc = force ? m->bodies[b].force_nc : NULL;
+    clear(&sim->grid, 1, args.mass_nc);
+    clear(&sim->grid, sim->grid.dim, args.mom_nc);
+    if (force) clear(&sim->grid, sim->grid.dim, args.force_nc);
+    FOR_RUNS(m->points, &sim->grid, run, group)
+    if (in_body(sim->scene, group, b)) m->kernels->p2g(&m->kernel_grid, &run, &args);
+  }
 }
 
 enum status mpm_points_to_nodes(struct sim *sim, double dt)
 {
   (void)dt;
-  struct mpm *m = mpm_of(sim);
-  int         dim = sim->grid.dim;
-  clear(&sim->grid, 1, m->mass_nc);
-  clear(&sim->grid, dim, m->mom_nc);
-  clear(&sim->grid, dim, m->force_nc);
-  gather_points(sim, m, true);
+  gather_points(sim, mpm_of(sim), true);
   return OK;
 }
 
 /* velocity = momentum / mass where there is enough mass, else zero */
-static void velocities(const struct sim *sim, const struct mpm *m, double t, double *vel_nc)
+void mpm_velocities(const struct sim *sim, const struct mpm *m, const struct body_nodes *b, double t, double *vel_nc)
 {
   const struct grid *g = &sim->grid;
   struct box         all = grid_all(g);
   int                dim = g->dim;
   FOR_BOX(g, all, c)
   for (int d = 0; d < dim; d++)
-    vel_nc[c * dim + d] = m->mass_nc[c] > m->mass_floor ? m->mom_nc[c * dim + d] / m->mass_nc[c] : 0;
+    vel_nc[c * dim + d] = b->mass_nc[c] > m->mass_floor ? b->mom_nc[c * dim + d] / b->mass_nc[c] : 0;
   boundary_velocity(g, sim->scene->solid_side, t, vel_nc);
 }
 
@@ -76,11 +81,14 @@ enum status mpm_fold_nodes(struct sim *sim, double dt)
   (void)dt;
   struct mpm                  *m = mpm_of(sim);
   const struct side_condition *sides = sim->scene->solid_side;
-  boundary_fold(&m->kernel_grid, sides, 1, m->mass_nc);
-  boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
-  boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->force_nc);
-  velocities(sim, m, sim->t, m->vel_nc);
-  boundary_ghosts(&m->kernel_grid, sides, 1, sim->t, m->mass_nc); /* markers and faces look for the solid there */
+  for (int b = 0; b < m->n_bodies; b++) {
+    const struct body_nodes *own = &m->bodies[b];
+    boundary_fold(&m->kernel_grid, sides, 1, own->mass_nc);
+    boundary_fold(&m->kernel_grid, sides, sim->grid.dim, own->mom_nc);
+    boundary_fold(&m->kernel_grid, sides, sim->grid.dim, own->force_nc);
+    mpm_velocities(sim, m, own, sim->t, own->vel_nc);
+    boundary_ghosts(&m->kernel_grid, sides, 1, sim->t, own->mass_nc); /* markers and faces look for the solid there */
+  }
   return OK;
 }
 
@@ -107,14 +115,15 @@ enum status mpm_remap_momentum(struct sim *sim, double dt)
   struct mpm                  *m = mpm_of(sim);
   const struct side_condition *sides = sim->scene->solid_side;
   TRY(mpm_sort_points(sim, dt)); /* they have moved, perhaps too far for their block */
-  clear(&sim->grid, 1, m->mass_nc);
-  clear(&sim->grid, sim->grid.dim, m->mom_nc);
   gather_points(sim, m, false);
-  boundary_fold(&m->kernel_grid, sides, 1, m->mass_nc);
-  boundary_fold(&m->kernel_grid, sides, sim->grid.dim, m->mom_nc);
-  velocities(sim, m, sim->t + dt, m->vel_new_nc);
-  boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, m->vel_new_nc);
-  mpm_gather_gradient(sim, m, m->vel_new_nc);
+  for (int b = 0; b < m->n_bodies; b++) {
+    const struct body_nodes *own = &m->bodies[b];
+    boundary_fold(&m->kernel_grid, sides, 1, own->mass_nc);
+    boundary_fold(&m->kernel_grid, sides, sim->grid.dim, own->mom_nc);
+    mpm_velocities(sim, m, own, sim->t + dt, own->vel_new_nc);
+    boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, own->vel_new_nc);
+  }
+  mpm_gather_gradient(sim, m);
   refer_to_start(sim, m, dt);
   return OK;
 }

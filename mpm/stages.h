@@ -11,6 +11,9 @@ enum status mpm_sort_points(struct sim *sim, double dt);
 enum status mpm_points_to_nodes(struct sim *sim, double dt);
 enum status mpm_load_surfaces(struct sim *sim, double dt);
 enum status mpm_fold_nodes(struct sim *sim, double dt);
+enum status mpm_join_bodies(struct sim *sim, double dt);
+enum status mpm_resolve_contact(struct sim *sim, double dt);
+enum status mpm_join_velocities(struct sim *sim, double dt);
 enum status mpm_advance_nodes(struct sim *sim, double dt);
 enum status mpm_nodes_to_points(struct sim *sim, double dt);
 enum status mpm_remap_momentum(struct sim *sim, double dt);
@@ -19,10 +22,12 @@ double      mpm_stress_dt(const struct sim *sim);
 
 /** Markers ride on the new nodal velocity; the loads' work is counted. */
 void mpm_move_markers(struct sim *sim, struct mpm *m, double dt);
+/** Velocity of a body's nodes = momentum / mass where there is enough mass, else zero; walls at time t. */
+void mpm_velocities(const struct sim *sim, const struct mpm *m, const struct body_nodes *b, double t, double *vel_nc);
 /** Sorts the set now, whether needed or not. */
 enum status mpm_sort_now(struct sim *sim, struct mpm *m) MUST_CHECK;
-/** Velocity gradient of a nodal field at the points, into gradv_p. */
-void mpm_gather_gradient(struct sim *sim, struct mpm *m, const double *vel_nc);
+/** Gradient at the points of their bodies' new nodal velocity, into gradv_p. */
+void mpm_gather_gradient(struct sim *sim, struct mpm *m);
 /** Speeds of the starting state, for the first time step. */
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m) MUST_CHECK;
 

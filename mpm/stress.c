@@ -86,7 +86,7 @@ enum status mpm_update_stress(struct sim *sim, double dt)
   long           bad = 0;
   PARALLEL_FOR_DYNAMIC
   for (long r = 0; r < points->n_runs; r++) {
-    const struct material *material = &sim->scene->materials[r % points->n_groups];
+    const struct material *material = scene_material(sim->scene, (int)(r % points->n_groups));
     double                *seen = m->run_speed + RUN_SPEEDS * r;
     memset(seen, 0, RUN_SPEEDS * sizeof *seen);
     if (material->model->held) continue;
@@ -128,7 +128,7 @@ enum status mpm_first_speeds(struct sim *sim, struct mpm *m)
 {
   struct points *points = m->points;
   for (long r = 0; r < points->n_runs; r++) {
-    const struct material *material = &sim->scene->materials[r % points->n_groups];
+    const struct material *material = scene_material(sim->scene, (int)(r % points->n_groups));
     if (material->model->held) continue;
     for (long p = points->start[r]; p < points->start[r + 1]; p += BATCH) {
       long   left = points->start[r + 1] - p;

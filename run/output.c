@@ -244,7 +244,7 @@ static enum status write_groups(struct h5 *h, const struct points *p)
 {
   TRY(h5_write(h, "VTKHDF/PointData/group", H5_BYTE, p->n, 0, p->group));
   TRY(h5_set_text(h, "VTKHDF/PointData/group", "unit", "-"));
-  return h5_set_text(h, "VTKHDF/PointData/group", "meaning", "which material, counted from 0");
+  return h5_set_text(h, "VTKHDF/PointData/group", "meaning", "which solid of the scene, counted from 0");
 }
 
 /* Points may have become fewer than the mesh has room for, and they have moved. */

@@ -30,6 +30,21 @@ static enum status find_dimension(struct reader *reader)
   return OK;
 }
 
+/** One body without contact; with it, a body for every solid or for all that are part of the same. */
+static void scene_number_bodies(struct scene *scene)
+{
+  scene->n_bodies = 1;
+  if (!scene->contact.present) return;
+  scene->n_bodies = 0;
+  for (int s = 0; s < scene->n_solids; s++) {
+    struct solid *own = &scene->solids[s];
+    own->body = -1;
+    for (int other = 0; other < s && own->part_of[0]; other++)
+      if (strcmp(scene->solids[other].part_of, own->part_of) == 0) own->body = scene->solids[other].body;
+    if (own->body < 0) own->body = scene->n_bodies++;
+  }
+}
+
 static enum status read_scene(struct reader *reader, struct loaded_scene *loaded)
 {
   static const char *const sets[] = {"variants", "quick", "paths"};
@@ -41,6 +56,8 @@ static enum status read_scene(struct reader *reader, struct loaded_scene *loaded
   TRY(section_read(reader, &scene_section, loaded->json, loaded->json, scene));
   fluid = json_member(loaded->json, "fluid");
   scene->fluid.present = cJSON_IsObject(fluid);
+  scene->contact.present = cJSON_IsObject(json_member(loaded->json, "contact"));
+  scene_number_bodies(scene);
   TRY(scene_check(reader, scene));
   for (int i = 0; i < 3; i++) cJSON_DeleteItemFromObjectCaseSensitive(loaded->json, sets[i]);
   return OK;

@@ -90,8 +90,20 @@ static const struct section material_section = {
     .meaning = "material", .size = sizeof(struct material), .params = material_params, .choice = &model_choice};
 
 static const struct param solid_params[] = {
+    {"part_of", PARAM_TEXT, AT(solid, part_of), "-", 0, 0, "", NULL,
+     "in a scene with contact: solids with the same word here are one body; empty: a body of its own"},
     {"velocity", PARAM_FUNCTION3, AT(solid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
     PARAM_END};
+static const struct param contact_params[] = {
+    {"friction", PARAM_NUMBER, AT(contact, friction), "-", 0, INFINITY, "0", NULL,
+     "Coulomb coefficient between bodies; \"infinite\": what touches sticks"},
+    {"normal", PARAM_CHOICE, AT(contact, normal), "-", 0, 0, "difference", "difference|larger",
+     "normal at a node: of the difference of both bodies' volume gradients, or of the larger one"},
+    {"detection", PARAM_CHOICE, AT(contact, detection), "-", 0, 0, "reach", "reach|approach",
+     "bodies meet where the reach of their points overlaps and they approach, or wherever they approach at a node"},
+    PARAM_END};
+static const struct section contact_section = {.meaning = "contact between bodies", .params = contact_params};
+
 static const struct entry solid_entries[] = {
     VALUE("material", material, solid, material, NULL, "-", "name of its material"),
     VALUE("shape", shape, solid, shape, NULL, "-", "region that it fills at the start"), ENTRY_END};
@@ -332,6 +344,8 @@ static const struct entry scene_entries[] = {
     SECTION("time", time_section, 0, "{}", "span of time"),
     MAP("materials", material_section, materials, "materials by name"),
     MAP("solids", solid_section, solids, "bodies by name"),
+    SECTION("contact", contact_section, AT(scene, contact), NULL,
+            "contact between bodies; leave it out and all solids share one velocity field"),
     SECTION("fluid", fluid_section, AT(scene, fluid), NULL, "the liquid; leave it out for a dry scene"),
     SECTION("boundary", boundary_section, 0, "{}", "conditions at the sides of the grid"),
     MAP("loads", load_section, loads, "tractions by name"),
