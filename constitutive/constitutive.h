@@ -25,6 +25,8 @@ struct constitutive_model {
   void (*energy)(const void *prm, int n, const double *F, const double *stress, const double *history, double *energy);
   /** History of n points that start with that stress; NULL: it starts at zero. */
   void (*start)(const void *prm, int n, const double *stress, double *history);
+  /** Pa, of one point: above 0 outside the yield surface, where `update` leaves no stress; NULL: there is none. */
+  double (*yield)(const void *prm, const double *stress, const double *history);
   /** Pa: constrained (oedometer) modulus at the start, and the ratio of lateral to vertical effective stress at rest.
    */
   double (*oedometer_modulus)(const void *prm);

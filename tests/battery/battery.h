@@ -45,11 +45,36 @@ static inline int parameters_sets(const char *law)
   return sets;
 }
 
+/* a choice is given by the number of its word */
 static inline void parameters_put(const char *law, const struct param *p, double value, struct parameters *prm)
 {
+  int word = (int)value;
+  if (p->type == PARAM_CHOICE) {
+    memcpy(&prm->bytes[p->offset], &word, sizeof word);
+    return;
+  }
   ck_assert_msg(value >= p->min && value <= p->max, "%s: %s = %g is out of its range", law, p->name, value);
   ck_assert_msg(p->type == PARAM_NUMBER, "%s: %s is no number; teach tests/battery/battery.h its type", law, p->name);
   memcpy(&prm->bytes[p->offset], &value, sizeof value);
+}
+
+/** The number of a word among "one|two|three". */
+static inline int parameters_word(const char *words, const char *word)
+{
+  int    number = 0;
+  size_t length = strlen(word);
+  for (const char *w = words; w; number++) {
+    const char *end = strchr(w, '|');
+    if ((end ? (size_t)(end - w) : strlen(w)) == length && strncmp(w, word, length) == 0) return number;
+    w = end ? end + 1 : NULL;
+  }
+  ck_abort_msg("\"%s\" is none of %s", word, words);
+  return 0;
+}
+
+static inline double parameters_default(const struct param *p)
+{
+  return p->type == PARAM_CHOICE ? parameters_word(p->words, p->fallback) : strtod(p->fallback, NULL);
 }
 
 /** One set of a law's parameters, as its table lays them out. */
@@ -63,7 +88,7 @@ static inline void parameters_fill(const char *law, const struct param *table, i
       if (strcmp(v->law, law) == 0 && v->set == set && strcmp(v->name, p->name) == 0) given = v;
     }
     ck_assert_msg(given || p->fallback, "%s: set %d in tests/battery/parameters.def lacks %s", law, set, p->name);
-    parameters_put(law, p, given ? given->value : strtod(p->fallback, NULL), prm);
+    parameters_put(law, p, given ? given->value : parameters_default(p), prm);
   }
 }
 

@@ -370,6 +370,78 @@ static void array_equals_point(struct point *p)
   }
 }
 
+/* Points in company, as a run holds them. */
+enum { COMPANY = 64, STRIDE = 10, COMPANIES = 1000000 / (COMPANY * STRIDE) };
+struct company {
+  double dF[COMPANY][9], stress[COMPANY][6], history[COMPANY * MAX_HISTORY], work[COMPANY], size[COMPANY];
+};
+
+static double largest_stress(const double s[6])
+{
+  double largest = 0.0;
+  for (int k = 0; k < 6; k++) largest = fmax(largest, fabs(s[k]));
+  return largest;
+}
+
+/* Any stress, more often in compression; sizes from 1e-6 to 1e-2 of the modulus. The law brings it inside. */
+static void company_start(const struct point *p, uint64_t *seed, struct company *c)
+{
+  memset(c->history, 0, sizeof c->history);
+  for (int i = 0; i < COMPANY; i++) {
+    double size = p->modulus * pow(10.0, -4.0 + 2.0 * battery_random(seed));
+    for (int k = 0; k < 6; k++) c->stress[i][k] = size * (battery_random(seed) - (k < 3 ? 0.7 : 0.0));
+    memcpy(c->dF[i], identity, sizeof identity);
+  }
+  if (p->law->start) p->law->start(&p->prm, COMPANY, c->stress[0], c->history);
+}
+
+/* strains from 1e-7 to 0.1 */
+static void company_stride(uint64_t *seed, struct company *c)
+{
+  for (int i = 0; i < COMPANY; i++) {
+    c->size[i] = pow(10.0, -4.0 + 3.0 * battery_random(seed));
+    random_step(seed, c->size[i], c->dF[i]);
+  }
+}
+
+/* Round-off is that of the stress before the return, which the strain made. Returns the worst yield over the stress. */
+static double assert_inside(const struct point *p, const struct company *c)
+{
+  double worst = -INFINITY;
+  for (int i = 0; i < COMPANY; i++) {
+    double yield = p->law->yield(&p->prm, c->stress[i], &c->history[i * p->law->n_history]);
+    double stress = largest_stress(c->stress[i]), trial = stress + 4.0 * c->size[i] * p->modulus;
+    ck_assert_msg(yield <= 1e-8 * stress + 4.0 * DBL_EPSILON * trial,
+                  "%s: yield function %g at a stress of %g Pa, step of strain %g", p->law->name, yield, stress,
+                  c->size[i]);
+    ck_assert_msg(c->work[i] >= -4.0 * DBL_EPSILON * trial * c->size[i],
+                  "%s: plastic work %g J/m3 at a stress of %g Pa, step of strain %g", p->law->name, c->work[i], stress,
+                  c->size[i]);
+    if (stress > 1e-9 * trial) worst = fmax(worst, yield / stress);
+  }
+  return worst;
+}
+
+/* A million steps of any size from any state: none fails, all end inside and lose work. */
+static void stays_inside(struct point *p)
+{
+  uint64_t       seed = 9;
+  double         worst = -INFINITY;
+  struct company c;
+  if (!p->law->yield) return;
+  for (int i = 0; i < COMPANIES; i++) {
+    company_start(p, &seed, &c);
+    p->law->update(&p->prm, COMPANY, 1e-3, c.dF[0], c.dF[0], c.stress[0], c.history, NULL);
+    for (int step = 0; step < STRIDE; step++) {
+      company_stride(&seed, &c);
+      int bad = p->law->update(&p->prm, COMPANY, 1e-3, c.dF[0], c.dF[0], c.stress[0], c.history, c.work);
+      ck_assert_msg(bad == 0, "%s: %d points of a random walk fail", p->law->name, bad);
+      worst = fmax(worst, assert_inside(p, &c));
+    }
+  }
+  printf("%s: yield function at most %.1e of the stress in 1e6 random steps\n", p->law->name, worst);
+}
+
 START_TEST(rest) { for_every_law(rests); }
 END_TEST
 START_TEST(held_deformation) { for_every_law(stays_when_nothing_moves); }
@@ -389,6 +461,9 @@ END_TEST
 START_TEST(bad_input) { for_every_law(survives_bad_input); }
 END_TEST
 START_TEST(arrays) { for_every_law(array_equals_point); }
+END_TEST
+
+START_TEST(random_walks) { for_every_law(stays_inside); }
 END_TEST
 
 START_TEST(found_by_name)
@@ -413,6 +488,7 @@ int main(void)
   tcase_add_test(tests, initial_moduli);
   tcase_add_test(tests, bad_input);
   tcase_add_test(tests, arrays);
+  tcase_add_test(tests, random_walks);
   tcase_add_test(tests, found_by_name);
   suite_add_tcase(suite, tests);
   return battery_run(suite);
