@@ -34,4 +34,9 @@ static inline double isotropic_lateral(const void *prm)
   return e->poisson / (1.0 - e->poisson);
 }
 
+/** `wave_speed` and `energy` of a law whose stress turns with the material and grows with the strain. */
+double isotropic_wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history);
+void   isotropic_energy(const void *prm, int n, const double *F, const double *stress, const double *history,
+                        double *energy);
+
 #endif
