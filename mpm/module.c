@@ -18,12 +18,20 @@ bool mpm_transfer_affine(const struct scene *scene)
   return scene->numerics.transfer == TRANSFER_APIC || scene->numerics.transfer == TRANSFER_AFLIP;
 }
 
+static const struct param params[] = {
+    {"damping", PARAM_NUMBER, offsetof(struct mpm_params, damping), "-", 0, 0.99, "0", NULL,
+     "local damping: share of the force on a node that acts against its motion"},
+    PARAM_END,
+};
+
 static bool needed(const struct scene *sc) { return mpm_solid_moves(sc) || (sc->n_solids > 0 && sc->fluid.present); }
 static bool moves_affine(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_transfer_affine(sc); }
 static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && !mpm_transfer_affine(sc); }
 static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
 static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers > 0; }
 static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_bodies > 1; }
+static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.present; }
+static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
 static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
 static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0; }
 static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
@@ -50,6 +58,10 @@ static const struct stage stages[] = {
      mpm_load_surfaces, NULL},
     {"mpm.join_bodies", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.4",
      "only when bodies are in contact", touching, mpm_join_bodies, NULL},
+    {"mpm.share_push", SLOT_nodes, "mass_nc force_nc", "force_nc", "3.4", "only when bodies are in contact in a fluid",
+     pushed, mpm_share_push, NULL},
+    {"mpm.damp_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "force_nc", "3.5",
+     "only when numerics.mpm.damping is above 0", damped, mpm_damp_nodes, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
      mpm_solid_moves, mpm_advance_nodes, NULL},
     {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_new_nc", "vel_new_nc", "3.4",
@@ -86,7 +98,9 @@ static enum status create(struct sim *sim, void *state)
   m->moves = mpm_solid_moves(sim->scene);
   kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
   TRY(mpm_create_bodies(sim, m));
+  struct box all = grid_all(&sim->grid);
   TRY(NEW(&m->run_speed, RUN_SPEEDS * m->points->n_runs));
+  TRY(NEW(&m->row_work, box_rows(&all)));
   TRY(mpm_create_points(sim, m));
   TRY(mpm_start_stress(sim, m));
   TRY(mpm_create_markers(sim, m));
@@ -100,6 +114,7 @@ static void destroy(void *state)
 {
   struct mpm *m = state;
   memory_free(&m->run_speed);
+  memory_free(&m->row_work);
   memory_free(&m->marker_end);
   memory_free(&m->marker_area);
   memory_free(&m->marker_normal);
@@ -168,11 +183,14 @@ static void measure(const struct sim *sim, struct ledger *l)
   l->v[LEDGER_work_loads] += m->now.work_loads;
   l->v[LEDGER_plastic] += m->now.plastic;
   l->v[LEDGER_friction] += m->now.friction;
+  l->v[LEDGER_damping] += m->now.damping;
 }
 
 const struct module module_mpm = {
     .name = "mpm",
     .needed = needed,
+    .params = params,
+    .params_size = sizeof(struct mpm_params),
     .fields = fields,
     .n_fields = sizeof fields / sizeof *fields,
     .stages = stages,

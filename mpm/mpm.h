@@ -13,6 +13,18 @@ struct body_nodes {
 
 struct contact_state; /* mpm/contact.c */
 
+/* How a start at rest came about (2.5). Out of balance: rms acceleration of the nodes over that of the weight. */
+struct mpm_rest {
+  bool   computed, settled; /* settled: below numerics.rest_tolerance */
+  double column, unbalanced; /* out of balance as the columns give it, and as the run starts */
+  int    steps;              /* of the static solve; 0: the columns balance */
+};
+
+/* numerics.mpm.* */
+struct mpm_params {
+  double damping; /* share of the force on a node that acts against its motion */
+};
+
 struct mpm {
 #define FIELD FIELD_MEMBER
 #include "mpm/fields.def"
@@ -30,8 +42,10 @@ struct mpm {
     double work_loads;        /* J, since the start */
     double plastic;           /* J lost to plastic flow, since the start */
     double friction;          /* J lost to friction, since the start */
+    double damping;           /* J lost to local damping, since the start */
   } now;
   double *run_speed;          /* [n_runs][3] what they were made of: speeds, and the plastic work of the step */
+  double *row_work;           /* [rows of nodes] J, scratch of sums over nodes */
   long   *marker_end;         /* [loads + tracers] markers of item i end here */
   double *marker_area;        /* [markers] m2 (m in 2D); 0: tracer */
   double (*marker_normal)[3]; /* outward, for pressure loads */
@@ -42,6 +56,11 @@ struct mpm {
 extern const struct module module_mpm;
 
 static inline struct mpm *mpm_of(const struct sim *sim) { return sim_state(sim, &module_mpm); }
+/** numerics.mpm of the scene. */
+static inline const struct mpm_params *mpm_params(const struct scene *scene)
+{
+  return scene_module_params(scene, &module_mpm);
+}
 
 /** Markers [first, end) of a load or tracer; first = end = 0: no such name. */
 void mpm_marker_range(const struct sim *sim, const char *name, long *first, long *end);

@@ -7,9 +7,11 @@
 #include <string.h>
 
 /* what a fluid gave to all bodies together (2.4), each takes by its mass */
-static void share_push(const struct sim *sim, struct mpm *m)
+enum status mpm_share_push(struct sim *sim, double dt)
 {
-  int dim = sim->grid.dim;
+  (void)dt;
+  struct mpm *m = mpm_of(sim);
+  int         dim = sim->grid.dim;
   PARALLEL_FOR
   for (long c = 0; c < sim->grid.size; c++) {
     if (!(m->mass_nc[c] > m->mass_floor)) continue;
@@ -20,6 +22,7 @@ static void share_push(const struct sim *sim, struct mpm *m)
         m->bodies[b].force_nc[c * dim + d] += push * m->bodies[b].mass_nc[c] / m->mass_nc[c];
     }
   }
+  return OK;
 }
 
 enum status mpm_advance_nodes(struct sim *sim, double dt)
@@ -31,7 +34,6 @@ enum status mpm_advance_nodes(struct sim *sim, double dt)
   int                          dim = g->dim;
   double                       gravity[3];
   sim_gravity(sim, sim->t + 0.5 * dt, gravity);
-  if (m->n_bodies > 1 && sim->scene->fluid.present) share_push(sim, m);
   for (int b = 0; b < m->n_bodies; b++) {
     const struct body_nodes *own = &m->bodies[b];
     memcpy(own->vel_new_nc, own->vel_nc, (size_t)(g->size * dim) * sizeof(double));
