@@ -11,7 +11,10 @@ struct constitutive_model {
   int                 n_history; /* doubles of history per point */
   const char *const  *history;   /* [n_history] their names, for output: "plastic_strain", ... */
   bool                held;      /* never moves: no stress, no mechanical time step limit */
-  bool total; /* stress follows from F alone, not from the stress before: a pre-stress must be put into F */
+  bool total;   /* stress follows from F alone, not from the stress before: a pre-stress must be put into F */
+  bool viscous; /* stress depends on the rate of strain: it may relax where nothing moves */
+  /** What is wrong with parameters that are each in their range, and the remedy; NULL: nothing. */
+  const char *(*check)(const void *prm);
   /** Stress at the end of the step of n points of one material.
    *  dF, F [n][9] relative and total deformation gradient (in); stress [n][6] effective Cauchy, Pa, tension positive,
    *  xx yy zz xy yz xz (in/out); history [n][n_history] (in/out; NULL where n_history is 0); work [n] plastic work of
