@@ -90,7 +90,9 @@ static enum status check_sides(struct reader *reader, const struct scene *scene)
 static enum status check_material(struct reader *reader, const struct scene *scene, const struct material *m)
 {
   const struct drag_law *drag = scene->fluid.drag;
+  const char            *fault = m->model->check ? m->model->check(m->model_params) : NULL;
   at(reader, "materials.%s", m->name);
+  if (fault) return reader_fail(reader, "%s", fault);
   if (!scene->fluid.present || m->porosity == 0) return OK;
   if (drag->needs_permeability && m->permeability == 0)
     return reader_fail(reader, "drag law %s needs \"permeability\"%s; give it in m/s%s", drag->name,
