@@ -26,6 +26,7 @@ struct material {
   double                           porosity;       /* -, at the start */
   double                           permeability;   /* m/s, hydraulic conductivity; 0: not given */
   double                           grain_diameter; /* m; 0: not given */
+  double                           lateral_ratio;  /* -, lateral over vertical stress at rest; < 0: the law's */
 };
 
 struct solid {
@@ -148,6 +149,8 @@ struct numerics {
   int    points_per_axis[3];          /* their number along each axis */
   double dt_factor, dt_max;           /* s; INFINITY: none */
   double theta;
+  double rest_tolerance;     /* a start at rest: rms acceleration that is left, over that of the weight */
+  int    rest_steps;         /* most steps of its static solve */
   double pressure_tolerance; /* residual over the largest right-hand side */
 };
 

@@ -100,7 +100,6 @@ enum status mpm_create_points(struct sim *sim, struct mpm *m)
   return OK;
 }
 
-/* geostatic stress of the points: vertical from the weight above, lateral by the law's ratio */
 /* stress of a law that knows only F, stretched by s along up: what a column without lateral strain has */
 static double stretched(const struct material *material, const double up[3], double s, double F[9], double stress[6])
 {
@@ -125,6 +124,13 @@ static void start_stretch(struct mpm *m, const struct material *material, const 
   for (int q = 0; q < dim * dim; q++) m->F_p[p * dim * dim + q] = F[q / dim * 3 + q % dim];
 }
 
+static double lateral_ratio(const struct material *material)
+{
+  if (material->lateral_ratio >= 0) return material->lateral_ratio;
+  return material->model->held ? 1 : material->model->lateral_ratio(material->model_params);
+}
+
+/* geostatic stress of the points: vertical from the weight above, lateral by the material's ratio */
 enum status mpm_start_stress(struct sim *sim, struct mpm *m)
 {
   const struct scene *scene = sim->scene;
@@ -141,7 +147,7 @@ enum status mpm_start_stress(struct sim *sim, struct mpm *m)
       start_stretch(m, material, up, scene->dim, p, fmin(0, rest.effective));
       continue;
     }
-    double lateral = material->model->held ? 1 : material->model->lateral_ratio(material->model_params);
+    double lateral = lateral_ratio(material);
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
         stress[3 * i + j] = rest.effective * (lateral * (i == j) + (1 - lateral) * up[i] * up[j]);

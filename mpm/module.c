@@ -1,5 +1,6 @@
 /* The solid as material points: its stages, when each is needed, its fields. Read this first. */
 #include "mpm/create.h"
+#include "mpm/settle.h"
 #include "mpm/stages.h"
 
 #include "constitutive/constitutive.h"
@@ -107,7 +108,10 @@ static enum status create(struct sim *sim, void *state)
   TRY(mpm_sort_now(sim, m));
   m->mass_floor = INFINITY;
   for (long p = 0; p < m->points->n && m->mass_p; p++) m->mass_floor = fmin(m->mass_floor, 1e-12 * m->mass_p[p]);
-  return m->moves ? mpm_first_speeds(sim, m) : OK;
+  if (!m->moves) return OK;
+  TRY(mpm_first_speeds(sim, m));
+  TRY(mpm_settle(sim, m));
+  return mpm_first_speeds(sim, m);
 }
 
 static void destroy(void *state)

@@ -15,7 +15,7 @@ struct contact_state; /* mpm/contact.c */
 
 /* How a start at rest came about (2.5). Out of balance: rms acceleration of the nodes over that of the weight. */
 struct mpm_rest {
-  bool   computed, settled; /* settled: below numerics.rest_tolerance */
+  bool   computed, settled;  /* settled: below numerics.rest_tolerance */
   double column, unbalanced; /* out of balance as the columns give it, and as the run starts */
   int    steps;              /* of the static solve; 0: the columns balance */
 };
@@ -49,8 +49,9 @@ struct mpm {
   long   *marker_end;         /* [loads + tracers] markers of item i end here */
   double *marker_area;        /* [markers] m2 (m in 2D); 0: tracer */
   double (*marker_normal)[3]; /* outward, for pressure loads */
-  int  n_markers;
-  bool moves; /* some material is not held */
+  int             n_markers;
+  bool            moves; /* some material is not held */
+  struct mpm_rest rest;
 };
 
 extern const struct module module_mpm;

@@ -13,6 +13,7 @@
 #include "run/plan.h"
 #include "run/progress.h"
 #include "run/scene_read.h"
+#include "run/start_check.h"
 #include "run/start_from.h"
 #include "run/summary.h"
 
@@ -25,9 +26,10 @@
 
 /* what is counted over the whole run, checkpointed as plain doubles */
 struct counts {
-  double next_event, gauge_samples, snapshots;
-  double dt_min, dt_max, dt_sum;
-  double wall_s, cpu_s, energy_growth;
+  double              next_event, gauge_samples, snapshots;
+  double              dt_min, dt_max, dt_sum;
+  double              wall_s, cpu_s, energy_growth;
+  struct start_motion start;
 };
 
 struct run {
@@ -229,6 +231,14 @@ static void count_step(struct run *r, double dt, const char *by)
   r->counts.dt_sum += dt;
 }
 
+/* before the first step, and what the first ones showed */
+static void tell_start(struct run *r)
+{
+  struct start_record start;
+  start_check_fill(r->sim, &r->counts.start, &start);
+  if (!r->options->quiet) start_check_print(&start, stderr);
+}
+
 static enum status step(struct run *r, bool *event)
 {
   struct sim *sim = r->sim;
@@ -244,6 +254,8 @@ static enum status step(struct run *r, bool *event)
   count_step(r, dt, by);
   sim->t = *event ? r->events.event[r->events.next].t : sim->t + dt;
   sim->step++;
+  start_check_step(sim, &r->counts.start);
+  if (sim->step == START_CHECK_STEPS) tell_start(r);
   return OK;
 }
 
@@ -324,6 +336,7 @@ static void fill_record(const struct run *r, struct run_record *record)
       .defect_max = sim->defect_max,
   };
   fill_ledger(r, record);
+  start_check_fill(sim, &r->counts.start, &record->start);
 }
 
 /* t_reached: metrics of later times are left out */
@@ -417,6 +430,7 @@ static enum status begin(struct run *r)
   snprintf(used, sizeof used, "%s/scene.used.json", r->folder);
   TRY(scene_write_used(r->loaded, used));
   TRY(write_plan(r));
+  tell_start(r);
   TRY(output_write(r->output, r->sim));
   r->counts.gauge_samples = 1;
   return sample(r);

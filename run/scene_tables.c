@@ -82,6 +82,8 @@ static const struct param material_params[] = {
      "hydraulic conductivity; 0: not given"},
     {"grain_diameter", PARAM_NUMBER, AT(material, grain_diameter), "m", 0, 100, "0", NULL,
      "diameter of a grain; 0: not given"},
+    {"lateral_ratio", PARAM_NUMBER, AT(material, lateral_ratio), "-", -1, 10, "-1", NULL,
+     "lateral over vertical effective stress of a start at rest, such as 1 on smooth slopes; negative: the law's own"},
     PARAM_END};
 static const struct choice model_choice = {
     "model",          NULL, "skeleton law", constitutive_row, AT(material, model), AT(material, model_params),
@@ -296,6 +298,10 @@ static const struct param numerics_params[] = {
     {"dt_max", PARAM_NUMBER, AT(numerics, dt_max), "s", 1e-15, INFINITY, "null", NULL, "largest time step; null: none"},
     {"theta", PARAM_NUMBER, AT(numerics, theta), "-", 0.5, 1, "1", NULL,
      "weight of the new pressure: 1 damps sound, 0.5 keeps it"},
+    {"rest_tolerance", PARAM_NUMBER, AT(numerics, rest_tolerance), "-", 1e-12, INFINITY, "1e-3", NULL,
+     "start at rest: rms acceleration of the solid's nodes that may be left, over that of its weight"},
+    {"rest_steps", PARAM_INTEGER, AT(numerics, rest_steps), "-", 0, 2147483647, "20000", NULL,
+     "start at rest: most steps of the static solve; 0: columns are weighed and that is all"},
     {"pressure_solver", PARAM_CHOICE, AT(numerics, pressure_solver), "-", 0, 0, "auto", "auto|hypre|direct",
      "solver of the pressure equation"},
     {"pressure_tolerance", PARAM_NUMBER, AT(numerics, pressure_tolerance), "-", 1e-16, 1e-2, "1e-10", NULL,

@@ -36,6 +36,21 @@ static void add_dt(cJSON *root, const struct run_record *r)
   for (int i = 0; i < r->n_limited_by; i++) number(limited_by, r->limited_by[i].name, (double)r->limited_by[i].count);
 }
 
+/* how a start at rest came about; nothing where it was not computed */
+static void add_start(cJSON *root, const struct start_record *s)
+{
+  if (!s->computed) return;
+  cJSON *start = cJSON_AddObjectToObject(root, "start");
+  number(start, "unbalanced_columns", s->column);
+  number(start, "unbalanced", s->unbalanced);
+  number(start, "static_steps", s->steps);
+  cJSON_AddBoolToObject(start, "settled", s->settled);
+  if (!s->still || !(s->motion.fall > 0)) return;
+  number(start, "speed", s->motion.speed);
+  number(start, "speed_of_free_fall", s->motion.fall);
+  cJSON_AddBoolToObject(start, "moves", s->moves);
+}
+
 static void add_cost(cJSON *root, const struct run_record *r)
 {
   number(root, "wall_s", r->wall_s);
@@ -98,6 +113,7 @@ enum status summary_write(const char *folder, const struct run_record *record)
   cJSON *root = cJSON_CreateObject();
   add_what(root, record);
   add_dt(root, record);
+  add_start(root, &record->start);
   add_cost(root, record);
   add_quality(root, record);
   add_metrics(root, record);

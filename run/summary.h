@@ -3,6 +3,7 @@
 #define RUN_SUMMARY_H
 
 #include "core/status.h"
+#include "run/start_check.h"
 
 #include <stdbool.h>
 
@@ -46,6 +47,7 @@ struct run_record {
   long                         solves, iterations;
   double                       residual_max;
   double                       defect_rms_max, defect_max;
+  struct start_record          start;
   double                       mass_solid_rel, mass_fluid_rel, momentum_rel, energy_growth_rel;
 };
 
