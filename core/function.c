@@ -1,4 +1,4 @@
-/* Expressions of place and time: parsed once into a postfix program, evaluated on a small stack. */
+/* Expressions of place and time: parsed once into a postfix program, evaluated on a small stack. Tables over time. */
 #include "core/function.h"
 
 #include "core/memory.h"
@@ -47,6 +47,8 @@ struct expression {
   char      *text;
   struct op *ops;
   int        n;
+  int        rows; /* of a table, which has no program */
+  double    *t, *v;
 };
 
 struct word {
@@ -342,11 +344,46 @@ enum status function_parse(const char *text, struct function *f)
   return status;
 }
 
+static enum status fill_table(int n, const double *t, const double *v, struct expression *e)
+{
+  TRY(NEW(&e->t, n));
+  TRY(NEW(&e->v, n));
+  memcpy(e->t, t, (size_t)n * sizeof *t);
+  memcpy(e->v, v, (size_t)n * sizeof *v);
+  e->rows = n;
+  return OK;
+}
+
+enum status function_table(int n, const double *t, const double *v, struct function *f)
+{
+  *f = (struct function){0, NULL};
+  TRY(NEW(&f->expression, 1));
+  enum status status = fill_table(n, t, v, f->expression);
+  if (status != OK) function_destroy(f);
+  return status;
+}
+
+/** The row is found by halving. */
+static double table_value(const struct expression *e, double t)
+{
+  int low = 0, high = e->rows - 1;
+  if (t <= e->t[low]) return e->v[low];
+  if (t >= e->t[high]) return e->v[high];
+  while (high - low > 1) {
+    int middle = (low + high) / 2;
+    *(e->t[middle] <= t ? &low : &high) = middle;
+  }
+  double part = (t - e->t[low]) / (e->t[high] - e->t[low]);
+  return e->v[low] + part * (e->v[high] - e->v[low]);
+}
+
 void function_destroy(struct function *f)
 {
   if (f->expression) {
     memory_free(&f->expression->ops);
     memory_free(&f->expression->text);
+    memory_free(&f->expression->t);
+    memory_free(&f->expression->v);
   }
   memory_free(&f->expression);
   f->constant = 0;
@@ -355,7 +392,15 @@ void function_destroy(struct function *f)
 double function_value(const struct function *f, const double x[3], double t)
 {
   if (!f->expression) return f->constant;
+  if (f->expression->rows > 0) return table_value(f->expression, t);
   return evaluate(f->expression->ops, f->expression->n, x, t);
+}
+
+bool function_varies_in_space(const struct function *f)
+{
+  for (int i = 0; f->expression && i < f->expression->n; i++)
+    if (f->expression->ops[i].code >= CODE_X && f->expression->ops[i].code <= CODE_Z) return true;
+  return false;
 }
 
 const char *function_text(const struct function *f) { return f->expression ? f->expression->text : NULL; }

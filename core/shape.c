@@ -97,6 +97,103 @@ double shape_distance(const struct shape *s, const double x[3])
   }
 }
 
+static void normalise(double v[3])
+{
+  double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  for (int d = 0; d < 3 && length > 0; d++) v[d] /= length;
+}
+
+/* outside: from the nearest place of the box; inside: the axis whose face is nearest */
+static void normal_box(const struct shape *s, const double x[3], double normal[3])
+{
+  double inside = -INFINITY, face[3] = {0};
+  bool   outside = false;
+  for (int d = 0; d < s->dim; d++) {
+    double beyond = fmax(s->min[d] - x[d], x[d] - s->max[d]), sign = x[d] - s->max[d] >= s->min[d] - x[d] ? 1 : -1;
+    normal[d] = beyond > 0 ? sign * beyond : 0;
+    outside = outside || beyond > 0;
+    if (beyond <= inside) continue;
+    inside = beyond;
+    face[0] = face[1] = face[2] = 0;
+    face[d] = sign;
+  }
+  for (int d = 0; d < 3 && !outside; d++) normal[d] = isfinite(inside) ? face[d] : 0;
+  normalise(normal);
+}
+
+/* twice the area, positive for a left turn */
+static double polygon_turn(const struct shape *s)
+{
+  double turn = 0;
+  for (int i = 0, j = s->n - 1; i < s->n; j = i++)
+    turn += s->vertices[j][0] * s->vertices[i][1] - s->vertices[i][0] * s->vertices[j][1];
+  return turn;
+}
+
+/* the nearest edge's, or from the nearest vertex */
+static void normal_polygon(const struct shape *s, const double x[3], double normal[3])
+{
+  double nearest2 = INFINITY, turn = polygon_turn(s) > 0 ? 1 : -1, side = distance_polygon(s, x) < 0 ? -1 : 1;
+  for (int i = 0, j = s->n - 1; i < s->n; j = i++) {
+    const double *a = s->vertices[j], *b = s->vertices[i];
+    double        distance2 = edge_distance2(a, b, x), ex = b[0] - a[0], ey = b[1] - a[1];
+    double        along = (x[0] - a[0]) * ex + (x[1] - a[1]) * ey, length2 = ex * ex + ey * ey;
+    if (distance2 >= nearest2) continue;
+    nearest2 = distance2;
+    bool          on_edge = (along > 0 && along < length2) || distance2 == 0;
+    const double *vertex = along > 0 ? b : a;
+    normal[0] = on_edge ? turn * ey : side * (x[0] - vertex[0]);
+    normal[1] = on_edge ? -turn * ex : side * (x[1] - vertex[1]);
+  }
+  normalise(normal);
+}
+
+/* that of the part whose distance counts */
+static void normal_combined(const struct shape *s, const double x[3], double normal[3])
+{
+  double counts = shape_distance(&s->parts[0], x);
+  int    part = 0;
+  bool   removed = false;
+  for (int i = 1; i < s->n; i++) {
+    bool   minus = s->kind == SHAPE_DIFFERENCE;
+    double own = shape_distance(&s->parts[i], x) * (minus ? -1 : 1);
+    if (s->kind == SHAPE_UNION ? own >= counts : own <= counts) continue;
+    counts = own;
+    part = i;
+    removed = minus;
+  }
+  shape_normal(&s->parts[part], x, normal);
+  for (int d = 0; d < 3 && removed; d++) normal[d] = -normal[d];
+}
+
+void shape_normal(const struct shape *s, const double x[3], double normal[3])
+{
+  normal[0] = normal[1] = normal[2] = 0;
+  switch (s->kind) {
+  case SHAPE_BOX:
+    normal_box(s, x, normal);
+    break;
+  case SHAPE_BALL:
+    for (int d = 0; d < s->dim; d++) normal[d] = x[d] - s->centre[d];
+    normalise(normal);
+    break;
+  case SHAPE_HALF_SPACE:
+    for (int d = 0; d < s->dim; d++) normal[d] = s->normal[d];
+    normalise(normal);
+    break;
+  case SHAPE_POLYGON:
+    normal_polygon(s, x, normal);
+    break;
+  case SHAPE_UNION:
+  case SHAPE_DIFFERENCE:
+  case SHAPE_INTERSECTION:
+    normal_combined(s, x, normal);
+    break;
+  default:
+    break;
+  }
+}
+
 bool shape_contains(const struct shape *s, const double x[3]) { return shape_distance(s, x) <= border; }
 
 void shape_destroy(struct shape *s)

@@ -26,6 +26,9 @@ struct shape {
 
 /** Signed distance, m: negative inside. Exact for the simple shapes; for combinations a bound of the right sign. */
 double shape_distance(const struct shape *s, const double x[3]);
+/** Unit gradient of the distance: out of the shape, where the nearest part of its surface faces. On edges and in
+ * corners one of the faces' normals. A shape without surface: zero. */
+void shape_normal(const struct shape *s, const double x[3], double normal[3]);
 /** Whether x lies inside; a point on the border, to 1e-12 m, counts as inside. */
 bool shape_contains(const struct shape *s, const double x[3]);
 void shape_destroy(struct shape *s);

@@ -2,6 +2,7 @@
 #include "run/params.h"
 
 #include "core/memory.h"
+#include "run/table_read.h"
 
 #include <limits.h>
 #include <stdarg.h>
@@ -174,6 +175,7 @@ enum status params_read_function(struct reader *reader, const cJSON *value, stru
     f->constant = value->valuedouble;
     return OK;
   }
+  if (cJSON_IsObject(value)) return table_read(reader, value, f);
   if (!cJSON_IsString(value))
     return reader_fail(reader,
                        "expected a number or an expression of x, y, z, t, found %s; write 9.81 or \"9.81*min(1, t)\"",

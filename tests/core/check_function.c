@@ -132,11 +132,44 @@ START_TEST(deep_texts)
 }
 END_TEST
 
+START_TEST(tables)
+{
+  const double    t[] = {-1, 0.5, 0.75, 3}, v[] = {4, 1, 2, -7};
+  struct function f;
+  ck_assert_int_eq(function_table(4, t, v, &f), OK);
+  for (int i = 0; i < 4; i++) ck_assert_double_eq(function_value(&f, place, t[i]), v[i]);
+  ck_assert_double_eq(function_value(&f, place, -0.25), 2.5);
+  ck_assert_double_eq(function_value(&f, place, 2.5), -5);
+  ck_assert_double_eq(function_value(&f, place, -9), 4);
+  ck_assert_double_eq(function_value(&f, place, 9), -7);
+  ck_assert_ptr_nonnull(f.expression);
+  ck_assert_ptr_null(function_text(&f));
+  function_destroy(&f);
+  ck_assert_int_eq(function_table(1, t, v, &f), OK);
+  ck_assert_double_eq(function_value(&f, place, 7), 4);
+  function_destroy(&f);
+}
+END_TEST
+
+START_TEST(what_varies_in_space)
+{
+  static const char *const texts[] = {"2", "2*t", "sin(t) + 0*z", "x", "t + y"};
+  for (int i = 0; i < 5; i++) {
+    struct function f;
+    ck_assert_int_eq(function_parse(texts[i], &f), OK);
+    ck_assert(function_varies_in_space(&f) == (i >= 2));
+    function_destroy(&f);
+  }
+}
+END_TEST
+
 int main(void)
 {
   Suite *suite = suite_create("function");
   TCase *tcase = tcase_create("expressions");
   tcase_add_loop_test(tcase, good_texts, 0, sizeof good / sizeof *good);
+  tcase_add_test(tcase, tables);
+  tcase_add_test(tcase, what_varies_in_space);
   tcase_add_loop_test(tcase, bad_texts, 0, sizeof bad / sizeof *bad);
   tcase_add_test(tcase, constants_need_no_program);
   tcase_add_test(tcase, deep_texts);
