@@ -22,6 +22,8 @@ bool mpm_transfer_affine(const struct scene *scene)
 static const struct param params[] = {
     {"damping", PARAM_NUMBER, offsetof(struct mpm_params, damping), "-", 0, 0.99, "0", NULL,
      "local damping: share of the force on a node that acts against its motion"},
+    {"smoothing", PARAM_NUMBER, offsetof(struct mpm_params, smoothing), "-", 0, 1, "0", NULL,
+     "hybrid strain smoothing: share of the smoothed velocity gradient in what strains the points; 0: none"},
     PARAM_END,
 };
 
@@ -35,6 +37,9 @@ static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.pr
 static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
 static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
 static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0; }
+static bool smooth(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->smoothing > 0; }
+static bool smooth_usl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_LAST; }
+static bool smooth_musl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
 static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
 static bool musl(const struct scene *sc) { return mpm_solid_moves(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
 
@@ -45,6 +50,7 @@ static const struct field fields[] = {
 };
 
 #define POINT_STATE "x_p vel_p mass_p volume_p stress_p"
+#define SMOOTHED "x_p volume_p vel_new_nc", "share_nc rate_nc rate_p share_cc gradv_cc smooth_p"
 
 static const struct stage stages[] = {
     {"mpm.sort_points", SLOT_sort, "x_p", "x_p", "3.1", "only when a solid moves", mpm_solid_moves, mpm_sort_points,
@@ -69,6 +75,8 @@ static const struct stage stages[] = {
      "only when bodies are in contact", touching, mpm_resolve_contact, NULL},
     {"mpm.join_velocities", SLOT_nodes, "mass_nc vel_new_nc", "vel_new_nc", "3.4", "only when bodies are in contact",
      touching, mpm_join_velocities, NULL},
+    {"mpm.smooth_strain", SLOT_nodes, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, usl", smooth_usl,
+     mpm_smooth_strain, NULL},
     {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p",
      "3.1", "only when a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
     {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
@@ -76,6 +84,10 @@ static const struct stage stages[] = {
      mpm_nodes_to_points, NULL},
     {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "x_p mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
+    {"mpm.smooth_strain_again", SLOT_remap, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, musl", smooth_musl,
+     mpm_smooth_strain_again, NULL},
+    {"mpm.take_smoothed", SLOT_remap, "gradv_p smooth_p", "gradv_p", "3.6", "only with numerics.mpm.smoothing", smooth,
+     mpm_take_smoothed, NULL},
     {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3",
      "only when a solid moves, no law with history", plain_law, mpm_update_stress, mpm_stress_dt},
     {"mpm.update_stress_and_history", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",

@@ -22,7 +22,8 @@ struct mpm_rest {
 
 /* numerics.mpm.* */
 struct mpm_params {
-  double damping; /* share of the force on a node that acts against its motion */
+  double damping;   /* share of the force on a node that acts against its motion */
+  double smoothing; /* share of the smoothed velocity gradient in what strains the points */
 };
 
 struct mpm {

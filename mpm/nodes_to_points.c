@@ -82,13 +82,13 @@ enum status mpm_nodes_to_points(struct sim *sim, double dt)
   return OK;
 }
 
-void mpm_gather_gradient(struct sim *sim, struct mpm *m)
+void mpm_gather_gradient(struct sim *sim, struct mpm *m, double *gradv)
 {
   int                dim = sim->grid.dim;
   struct gather_args args = {.n = dim, .x = m->x_p, .gradient_stride = dim * dim};
   for (int d = 0; d < dim; d++) {
     args.stride[d] = dim;
-    args.gradient[d] = m->gradv_p + d * dim;
+    args.gradient[d] = gradv + d * dim;
   }
   FOR_RUNS(m->points, &sim->grid, run, group)
   {

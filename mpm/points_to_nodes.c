@@ -94,12 +94,12 @@ enum status mpm_fold_nodes(struct sim *sim, double dt)
 
 /* The regathered gradient L is taken at the new places, dF = (I - dt L)^-1. It becomes the gradient at the old ones:
  * dF = I + dt L', L' = L (I - dt L)^-1 */
-static void refer_to_start(const struct sim *sim, struct mpm *m, double dt)
+void mpm_refer_to_start(const struct sim *sim, const struct mpm *m, double dt, double *gradv)
 {
   int dim = sim->grid.dim;
   PARALLEL_FOR
   for (long p = 0; p < m->points->n; p++) {
-    double *L = m->gradv_p + p * dim * dim, wide[9] = {0}, left[9], inverse[9];
+    double *L = gradv + p * dim * dim, wide[9] = {0}, left[9], inverse[9];
     for (int q = 0; q < dim * dim; q++) wide[q / dim * 3 + q % dim] = L[q];
     for (int q = 0; q < 9; q++) left[q] = (q % 4 == 0) - dt * wide[q];
     tensor_inverse(left, inverse);
@@ -123,7 +123,7 @@ enum status mpm_remap_momentum(struct sim *sim, double dt)
     mpm_velocities(sim, m, own, sim->t + dt, own->vel_new_nc);
     boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, own->vel_new_nc);
   }
-  mpm_gather_gradient(sim, m);
-  refer_to_start(sim, m, dt);
+  mpm_gather_gradient(sim, m, m->gradv_p);
+  mpm_refer_to_start(sim, m, dt, m->gradv_p);
   return OK;
 }

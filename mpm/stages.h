@@ -19,6 +19,9 @@ enum status mpm_damp_nodes(struct sim *sim, double dt);
 enum status mpm_advance_nodes(struct sim *sim, double dt);
 enum status mpm_nodes_to_points(struct sim *sim, double dt);
 enum status mpm_remap_momentum(struct sim *sim, double dt);
+enum status mpm_smooth_strain(struct sim *sim, double dt);
+enum status mpm_smooth_strain_again(struct sim *sim, double dt);
+enum status mpm_take_smoothed(struct sim *sim, double dt);
 enum status mpm_update_stress(struct sim *sim, double dt);
 double      mpm_stress_dt(const struct sim *sim);
 
@@ -28,8 +31,10 @@ void mpm_move_markers(struct sim *sim, struct mpm *m, double dt);
 void mpm_velocities(const struct sim *sim, const struct mpm *m, const struct body_nodes *b, double t, double *vel_nc);
 /** Sorts the set now, whether needed or not. */
 enum status mpm_sort_now(struct sim *sim, struct mpm *m) MUST_CHECK;
-/** Gradient at the points of their bodies' new nodal velocity, into gradv_p. */
-void mpm_gather_gradient(struct sim *sim, struct mpm *m);
+/** Gradient at the points of their bodies' new nodal velocity, into gradv [n][dim][dim]. */
+void mpm_gather_gradient(struct sim *sim, struct mpm *m, double *gradv);
+/** A gradient taken at the places where a step ends becomes the one at those where it began. gradv [n][dim][dim] */
+void mpm_refer_to_start(const struct sim *sim, const struct mpm *m, double dt, double *gradv);
 /** Speeds of the starting state, for the first time step. */
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m) MUST_CHECK;
 
