@@ -19,9 +19,15 @@ void at_rest_up(const struct scene *scene, double up[3], double *g)
   for (int d = 0; d < 3 && *g > 0; d++) up[d] /= *g;
 }
 
-static void along(const double x[3], const double up[3], double s, double y[3])
+/* the place s m up from x; on a periodic axis the column goes on at the other end */
+static void along(const struct scene *scene, const double x[3], const double up[3], double s, double y[3])
 {
   for (int d = 0; d < 3; d++) y[d] = x[d] + s * up[d];
+  for (int d = 0; d < scene->dim; d++) {
+    double width = scene->cells[d] * scene->h;
+    if (scene->solid_side[2 * d].kind == SIDE_PERIODIC || scene->fluid_side[2 * d].kind == SIDE_PERIODIC)
+      y[d] -= width * floor((y[d] - scene->min[d]) / width);
+  }
 }
 
 static bool in_grid(const struct scene *scene, const double x[3])
@@ -43,7 +49,7 @@ static double find_surface(const struct scene *scene, const double x[3], const d
 {
   for (int i = 0; i < 60; i++) {
     double middle = 0.5 * (low + high), y[3];
-    along(x, up, middle, y);
+    along(scene, x, up, middle, y);
     if (shape_contains(&scene->fluid.region, y))
       low = middle;
     else
@@ -58,14 +64,14 @@ static double head_above(const struct scene *scene, const double x[3], const dou
   double y[3], s = 0;
   if (!scene->fluid.present || !shape_contains(&scene->fluid.region, x)) return 0;
   for (;; s += step) {
-    along(x, up, s + step, y);
+    along(scene, x, up, s + step, y);
     if (!in_grid(scene, y)) break;
     if (!shape_contains(&scene->fluid.region, y)) return find_surface(scene, x, up, s, s + step);
   }
   double low = s, high = s + step; /* the grid ends in between */
   for (int i = 0; i < 60; i++) {
     double middle = 0.5 * (low + high);
-    along(x, up, middle, y);
+    along(scene, x, up, middle, y);
     *(in_grid(scene, y) ? &low : &high) = middle;
   }
   return low;
@@ -96,7 +102,7 @@ static double skeleton_weight(const struct scene *scene, const double x[3], cons
   double weight = 0, y[3], below = hydrostatic(scene, head, g);
   for (double s = 0;; s += step) {
     double top = s + 0.5 * step, above = hydrostatic(scene, fmax(0, head - top), g);
-    along(x, up, s, y);
+    along(scene, x, up, s, y);
     if (!in_grid(scene, y)) return weight;
     const struct material *m = material_at(scene, y);
     if (m) weight += (1 - m->porosity) * (m->density * g * (s == 0 ? 0.5 * step : step) - (below - above));

@@ -142,6 +142,22 @@ START_TEST(oblique_gravity)
 }
 END_TEST
 
+/* a column that leaves through a periodic side goes on at the other */
+START_TEST(oblique_and_periodic)
+{
+  struct scene_run run;
+  scene_open(SCENE(FLAT, "\"gravity\": [3, -4], \"boundary\": {\"solid\": {\"x_min\": \"periodic\", \"x_max\": "
+                         "\"periodic\"}}, " SAND),
+             &run);
+  for (double x = 0.025; x < 1; x += 0.05) {
+    double effective = rest_at(&run, x, 0.225).effective;
+    ck_assert_double_eq_tol(effective, -0.6 * 2650 * 5 * 0.775 / 0.8, 0.6 * 2650 * 5 * 0.05);
+    ck_assert_double_eq_tol(effective, rest_at(&run, 0.525, 0.225).effective, 1e-9);
+  }
+  scene_close(&run);
+}
+END_TEST
+
 START_TEST(nothing_to_weigh)
 {
   static const char *const scenes[] = {SCENE(FLAT, "\"gravity\": [0, 0], " SAND),
@@ -183,6 +199,7 @@ int main(void)
   tcase_add_test(tcase, water_table_inside_layers);
   tcase_add_test(tcase, other_directions);
   tcase_add_test(tcase, oblique_gravity);
+  tcase_add_test(tcase, oblique_and_periodic);
   tcase_add_test(tcase, nothing_to_weigh);
   tcase_add_test(tcase, soil_stays);
   suite_add_tcase(suite, tcase);
