@@ -74,6 +74,7 @@ static inline int parameters_word(const char *words, const char *word)
 
 static inline double parameters_default(const struct param *p)
 {
+  if (strcmp(p->fallback, "null") == 0) return INFINITY;
   return p->type == PARAM_CHOICE ? parameters_word(p->words, p->fallback) : strtod(p->fallback, NULL);
 }
 

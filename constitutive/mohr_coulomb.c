@@ -1,0 +1,344 @@
+/* Mohr and Coulomb's law: linear elastic below a strength that grows with pressure, exact return to it, dilation, a
+ * cut-off in tension, softening with the plastic shear strain. theory 1.3.1 */
+#include "constitutive/coulomb.h"
+#include "constitutive/isotropic.h"
+#include "constitutive/principal.h"
+
+enum { CONSTANT, ROWE };
+enum { FLOW_MOHR_COULOMB, FLOW_MENETREY_WILLAM };
+
+struct mohr_coulomb {
+  double young, poisson;                        /* Pa, - */
+  double friction, cohesion, dilation, tension; /* deg, Pa, deg, Pa; of the intact soil */
+  double residual_friction, residual_cohesion;  /* deg, Pa */
+  double residual_dilation;                     /* deg */
+  double softening_start, softening_end;        /* plastic shear strain */
+  double roundness, eccentricity;               /* of Menetrey and Willam's potential */
+  int    dilatancy, flow;
+};
+
+#define SQRT3 1.73205080756887729353 /* plastic shear strain over plastic_strain */
+#define AT(member) offsetof(struct mohr_coulomb, member)
+static const struct param params[] = {
+    ISOTROPIC_PARAMS(struct mohr_coulomb, 0.0),
+    {"friction_angle_deg", PARAM_NUMBER, AT(friction), "deg", 0, 60, NULL, NULL, "friction angle, at its peak"},
+    {"cohesion", PARAM_NUMBER, AT(cohesion), "Pa", 0, 1e12, "0", NULL, "cohesion, at its peak"},
+    {"dilation_angle_deg", PARAM_NUMBER, AT(dilation), "deg", 0, INFINITY, "null", NULL,
+     "dilation angle, at most the friction angle; null: 0. With dilatancy rowe the largest one; null: no bound"},
+    {"tension_strength", PARAM_NUMBER, AT(tension), "Pa", 0, INFINITY, "infinite", NULL,
+     "largest tensile stress (Rankine); \"infinite\": what cohesion and friction bear"},
+    {"residual_friction_angle_deg", PARAM_NUMBER, AT(residual_friction), "deg", 0, INFINITY, "null", NULL,
+     "friction angle after softening, at most the peak; null: the peak"},
+    {"residual_cohesion", PARAM_NUMBER, AT(residual_cohesion), "Pa", 0, INFINITY, "null", NULL,
+     "cohesion after softening, at most the peak; null: the peak"},
+    {"residual_dilation_angle_deg", PARAM_NUMBER, AT(residual_dilation), "deg", 0, INFINITY, "null", NULL,
+     "dilation angle after softening, at most the first; null: the first"},
+    {"softening_start", PARAM_NUMBER, AT(softening_start), "-", 0, 1e6, "0", NULL,
+     "plastic shear strain where softening starts"},
+    {"softening_end", PARAM_NUMBER, AT(softening_end), "-", 0, INFINITY, "infinite", NULL,
+     "plastic shear strain where it ends; \"infinite\": there is none"},
+    {"dilatancy", PARAM_CHOICE, AT(dilatancy), "-", 0, 0, "constant", "constant|rowe",
+     "dilation angle as given, or from the present and the residual friction angle (Rowe)"},
+    {"flow", PARAM_CHOICE, AT(flow), "-", 0, 0, "mohr_coulomb", "mohr_coulomb|menetrey_willam",
+     "plastic potential: planes, or Menetrey and Willam's smooth one"},
+    {"flow_roundness", PARAM_NUMBER, AT(roundness), "-", 0.51, INFINITY, "null", NULL,
+     "e of menetrey_willam, at most 1; null: (3 - sin phi)/(3 + sin phi)"},
+    {"flow_eccentricity", PARAM_NUMBER, AT(eccentricity), "-", 0, 10, "0.1", NULL,
+     "eps of menetrey_willam: rounds the tip of the potential of a cohesive soil"},
+    PARAM_END};
+
+static const char *check(const void *prm)
+{
+  const struct mohr_coulomb *m = prm;
+  if (!isinf(m->dilation) && m->dilation > m->friction)
+    return "dilation_angle_deg is above friction_angle_deg: yielding would make energy; choose at most the friction "
+           "angle";
+  if (!isinf(m->residual_friction) && m->residual_friction > m->friction)
+    return "residual_friction_angle_deg is above friction_angle_deg; choose less, the soil softens only";
+  if (!isinf(m->residual_cohesion) && m->residual_cohesion > m->cohesion)
+    return "residual_cohesion is above cohesion; choose less, the soil softens only";
+  if (m->softening_end < m->softening_start + 1e-6)
+    return "softening_end is not above softening_start; choose at least 1e-6 more";
+  if (!isinf(m->roundness) && m->roundness > 1.0) return "flow_roundness is above 1; choose 0.51 to 1";
+  return NULL;
+}
+
+/* The parameters as the update wants them: Pa, radians; `loss` is peak less residual. */
+struct soil {
+  struct coulomb_elastic elastic;
+  struct coulomb_flow    flow;
+  double                 phi, cohesion, psi, phi_loss, cohesion_loss, psi_loss;
+  double                 start, slope; /* of softening: the share that is lost is slope (plastic_strain - start) */
+  double                 tension, sin_residual, sin_most;
+  bool                   softens, rowe;
+};
+
+static double radians(double degrees) { return degrees * (M_PI / 180.0); }
+
+static void read_flow(const struct mohr_coulomb *m, struct soil *soil)
+{
+  double sine = sin(soil->phi), round = isinf(m->roundness) ? (3.0 - sine) / (3.0 + sine) : fmin(m->roundness, 1.0);
+  soil->flow.roundness = m->flow == FLOW_MENETREY_WILLAM ? round : 0.0;
+  soil->flow.meridian = (3.0 - sine) / (6.0 * cos(soil->phi));
+  soil->flow.blunt = m->eccentricity * m->cohesion;
+}
+
+static void read_soil(const void *prm, struct soil *soil)
+{
+  const struct mohr_coulomb *m = prm;
+  double                     residual = radians(fmin(m->residual_friction, m->friction));
+  soil->elastic.lambda = isotropic_lambda(prm);
+  soil->elastic.shear = isotropic_shear(prm);
+  soil->elastic.bulk = soil->elastic.lambda + 2.0 / 3.0 * soil->elastic.shear;
+  soil->phi = radians(m->friction);
+  soil->cohesion = m->cohesion;
+  soil->psi = isinf(m->dilation) ? 0.0 : radians(fmin(m->dilation, m->friction));
+  soil->phi_loss = soil->phi - residual;
+  soil->cohesion_loss = fmax(0.0, m->cohesion - m->residual_cohesion);
+  soil->psi_loss = fmax(0.0, soil->psi - radians(m->residual_dilation));
+  soil->start = m->softening_start / SQRT3;
+  soil->softens = m->softening_end < INFINITY;
+  soil->slope = soil->softens ? SQRT3 / (m->softening_end - m->softening_start) : 0.0;
+  soil->tension = m->tension;
+  soil->rowe = m->dilatancy == ROWE;
+  soil->sin_residual = sin(residual);
+  soil->sin_most = sin(radians(fmin(m->dilation, m->friction)));
+  read_flow(m, soil);
+}
+
+/* Taylor's series; 1e-17 up to 60 degrees */
+static void sine(const VECTOR *angle, VECTOR *sine)
+{
+  static const double under[] = {20 * 21, 18 * 19, 16 * 17, 14 * 15, 12 * 13, 10 * 11, 8 * 9, 6 * 7, 4 * 5, 2 * 3};
+  VECTOR              square = *angle * *angle, sum = VECTOR_ALL(1.0);
+  for (int i = 0; i < 10; i++) sum = 1.0 - square * sum * (1.0 / under[i]);
+  *sine = *angle * sum;
+}
+
+/* What a plastic strain has left. */
+static void strength_at(const struct soil *soil, const VECTOR *strain, struct coulomb_strength *s)
+{
+  VECTOR zero = VECTOR_ALL(0.0), one = VECTOR_ALL(1.0), lost = (*strain - soil->start) * soil->slope, angle, square,
+         cosine;
+  lost = VECTOR_MAX(lost, zero);
+  lost = VECTOR_MIN(lost, one);
+  angle = soil->phi - lost * soil->phi_loss;
+  sine(&angle, &s->sin_phi);
+  square = 1.0 - s->sin_phi * s->sin_phi;
+  vector_sqrt(&square, &cosine);
+  s->cohesive = 2.0 * (soil->cohesion - lost * soil->cohesion_loss) * cosine;
+  s->tip = VECTOR_SELECT(s->sin_phi > 0.0, 0.5 * s->cohesive / s->sin_phi, zero + INFINITY);
+  s->tension = VECTOR_MIN(s->tip, zero + soil->tension);
+  angle = soil->psi - lost * soil->psi_loss;
+  sine(&angle, &s->sin_psi);
+  if (soil->rowe) { /* M(100) */
+    s->sin_psi = (s->sin_phi - soil->sin_residual) / (1.0 - s->sin_phi * soil->sin_residual);
+    s->sin_psi = VECTOR_MIN(s->sin_psi, zero + soil->sin_most);
+    s->sin_psi = VECTOR_MAX(s->sin_psi, zero);
+  }
+  s->sin_psi = VECTOR_MIN(s->sin_psi, s->sin_phi);
+}
+
+/* Lanes that may be outside: the others are below the smooth cone that touches Mohr and Coulomb's planes from inside,
+ * sqrt(J2) sqrt(1 + sin^2(phi)/3) + p sin(phi) = c cos(phi), and have no principal stress above the cut-off. */
+static void suspect(const struct coulomb_strength *s, const VECTOR stress[6], MASK *outside)
+{
+  const VECTOR *S = stress;
+  VECTOR        mean = (S[XX] + S[YY] + S[ZZ]) / 3.0, a = S[XX] - S[YY], b = S[YY] - S[ZZ], c = S[ZZ] - S[XX];
+  VECTOR        J2 = (a * a + b * b + c * c) / 6.0 + (S[XY] * S[XY] + S[YZ] * S[YZ] + S[XZ] * S[XZ]);
+  VECTOR        bears = 0.5 * s->cohesive - mean * s->sin_phi, room = s->tension - mean;
+  *outside = (MASK)(J2 * (1.0 + s->sin_phi * s->sin_phi / 3.0) > bears * bears) | (MASK)(bears < 0.0) |
+             (MASK)(4.0 / 3.0 * J2 > room * room) | (MASK)(room < 0.0);
+}
+
+/* One return of a group and what it leaves behind. */
+struct step {
+  VECTOR trial[3], value[3];      /* Pa */
+  VECTOR strain[3], volume, slip; /* plastic of the step: deviator e, volume, sqrt(2/3 e:e) */
+};
+
+static void plastic_strain(const struct coulomb_elastic *e, struct step *step)
+{
+  VECTOR square = VECTOR_ALL(0.0), mean = square;
+  for (int k = 0; k < 3; k++) mean += (step->trial[k] - step->value[k]) / 3.0;
+  for (int k = 0; k < 3; k++) {
+    step->strain[k] = (step->trial[k] - step->value[k] - mean) / (2.0 * e->shear);
+    square += 2.0 / 3.0 * step->strain[k] * step->strain[k];
+  }
+  step->volume = mean / e->bulk;
+  vector_sqrt(&square, &step->slip);
+}
+
+/* with the strength that a plastic strain has left */
+static void step_at(const struct soil *soil, const VECTOR *strain, struct step *step)
+{
+  struct coulomb_strength s;
+  strength_at(soil, strain, &s);
+  coulomb_return(&soil->elastic, &s, &soil->flow, step->trial, step->value);
+  plastic_strain(&soil->elastic, step);
+}
+
+static void keep(const MASK *mask, const struct step *from, struct step *to)
+{
+  for (int k = 0; k < 3; k++) to->value[k] = VECTOR_SELECT(*mask, from->value[k], to->value[k]);
+  for (int k = 0; k < 3; k++) to->strain[k] = VECTOR_SELECT(*mask, from->strain[k], to->strain[k]);
+  to->volume = VECTOR_SELECT(*mask, from->volume, to->volume);
+  to->slip = VECTOR_SELECT(*mask, from->slip, to->slip);
+}
+
+/* Finds the plastic strain at the end, x = start + slip(x): secants, halving where they leave the bracket. Its
+ * upper end: no return makes the deviator larger. A lane that is done keeps what it has: x and the step made with it,
+ * so that the stress is on the surface of that x exactly. */
+static void soften(const struct soil *soil, const MASK *yields, VECTOR *strain, struct step *step)
+{
+  enum { STEPS = 80 };
+  const VECTOR *t = step->trial;
+  VECTOR        start = *strain, low = start, last = start, x, high, size, last_gap;
+  MASK          open = *yields;
+  step_at(soil, strain, step);
+  size = (t[2] - t[0]) * (2.0 / soil->elastic.shear);
+  high = start + size;
+  last_gap = step->slip;
+  x = start + last_gap;
+  *strain = VECTOR_SELECT(open, x, *strain);
+  for (int i = 0; i < STEPS && vector_any(&open); i++) {
+    struct step next = *step;
+    step_at(soil, &x, &next);
+    keep(&open, &next, step);
+    *strain = VECTOR_SELECT(open, x, *strain);
+    VECTOR gap = start + next.slip - x;
+    open &= (MASK)(VECTOR_ABS(gap) > 1e-13 * (start + next.slip));
+    low = VECTOR_SELECT(gap > 0.0, x, low);
+    high = VECTOR_SELECT(gap > 0.0, high, x);
+    VECTOR secant = x - gap * (x - last) / (gap - last_gap), middle = 0.5 * (low + high);
+    last = x;
+    last_gap = gap;
+    x = VECTOR_SELECT((MASK)(secant > low) & (MASK)(secant < high), secant, middle);
+  }
+}
+
+/* Trial stresses of a group to the surface where they are outside. history, work: of its first point */
+static void yield_group(const struct soil *soil, const struct coulomb_strength *now, const MASK *outside, int m,
+                        VECTOR stress[6], double *history, double *work)
+{
+  struct principal p;
+  struct step      step;
+  VECTOR           strain = VECTOR_ALL(0.0), returned[6], done, *value = step.value;
+  principal_split(stress, &p);
+  memcpy(step.trial, p.value, sizeof step.trial);
+  MASK yields = *outside & ((MASK)(COULOMB_YIELD(now, step.trial) > 0.0) | (MASK)(step.trial[2] > now->tension));
+  if (!vector_any(&yields)) return;
+  for (int i = 0; i < m; i++) strain[i] = history[i];
+  if (soil->softens) {
+    soften(soil, &yields, &strain, &step);
+  } else {
+    coulomb_return(&soil->elastic, now, &soil->flow, step.trial, value);
+    plastic_strain(&soil->elastic, &step);
+    strain += step.slip;
+  }
+  principal_join(&p, value, returned);
+  for (int k = 0; k < 6; k++) stress[k] = VECTOR_SELECT(yields, returned[k], stress[k]);
+  done = (value[0] + value[1] + value[2]) / 3.0 * step.volume;
+  for (int k = 0; k < 3; k++) done += value[k] * step.strain[k];
+  for (int i = 0; i < m; i++) {
+    if (!yields[i]) continue;
+    history[i] = strain[i];
+    if (work) work[i] = done[i];
+  }
+}
+
+static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
+                  double *work)
+{
+  struct soil             soil;
+  struct coulomb_strength now;
+  VECTOR                  strain = VECTOR_ALL(0.0);
+  int                     bad = 0;
+  (void)dt, (void)F;
+  read_soil(prm, &soil);
+  strength_at(&soil, &strain, &now);
+  if (work) memset(work, 0, (size_t)n * sizeof *work);
+  for (int p = 0; p < n; p += LANES) {
+    struct corotate_group g;
+    MASK                  outside;
+    int                   m = corotate_members(n, p);
+    bad += corotate_begin(m, &dF[9L * p], &stress[6L * p], &g);
+    VECTOR volume = soil.elastic.lambda * (g.strain[XX] + g.strain[YY] + g.strain[ZZ]);
+    for (int k = 0; k < 3; k++) g.stress[k] += volume;
+    for (int k = 0; k < 6; k++) g.stress[k] += 2.0 * soil.elastic.shear * g.strain[k];
+    for (int i = 0; i < m && soil.softens; i++) strain[i] = history[p + i];
+    if (soil.softens) strength_at(&soil, &strain, &now);
+    suspect(&now, g.stress, &outside);
+    if (vector_any(&outside)) yield_group(&soil, &now, &outside, m, g.stress, &history[p], work ? &work[p] : NULL);
+    corotate_end(m, &g, &stress[6L * p]);
+  }
+  return bad;
+}
+
+static double yield(const void *prm, const double *stress, const double *history)
+{
+  struct soil             soil;
+  struct coulomb_strength now;
+  struct principal        p;
+  VECTOR                  strain = VECTOR_ALL(history[0]), group[6];
+  read_soil(prm, &soil);
+  strength_at(&soil, &strain, &now);
+  for (int k = 0; k < 6; k++) group[k] = VECTOR_ALL(stress[k]);
+  principal_split(group, &p);
+  VECTOR sheared = COULOMB_YIELD(&now, p.value), opened = p.value[2] - now.tension;
+  return fmax(sheared[0], opened[0]);
+}
+
+/* Elastic, unless that is outside: then Rankine's active pressure. */
+static double lateral_ratio(const void *prm)
+{
+  const struct mohr_coulomb *m = prm;
+  double                     sine = sin(radians(m->friction));
+  return fmax(isotropic_lateral(prm), (1.0 - sine) / (1.0 + sine));
+}
+
+/* How far the acoustic tensor's largest eigenvalue exceeds E_oed where the flow is not associated, Pa: -u_N v_N/h, with
+ * N.D.b = u, N.D.a = v and h = a.D.b of slip on a plane or on the edge of triaxial compression, for the worst N. Each
+ * product is (u_0 - u_1 x)(v_0 - v_1 x), x up to 1. */
+static double excess(const struct coulomb_elastic *e, double phi, double psi)
+{
+  double both = e->lambda + e->shear, x = fmin(1.0, 0.5 * both * (phi + psi) / e->shear), most = 0.0;
+  most = -4.0 * (both * psi - e->shear * x) * (both * phi - e->shear * x) /
+         (4.0 * e->lambda * phi * psi + 4.0 * e->shear * (1.0 + phi * psi));
+  double u_0 = 2.0 * e->lambda * psi + e->shear * (1.0 + psi), u_1 = e->shear * (3.0 - psi);
+  double v_0 = 2.0 * e->lambda * phi + e->shear * (1.0 + phi), v_1 = e->shear * (3.0 - phi);
+  x = fmin(1.0, 0.5 * (u_0 / u_1 + v_0 / v_1));
+  return fmax(most, -(u_0 - u_1 * x) * (v_0 - v_1 * x) /
+                        (4.0 * e->lambda * phi * psi +
+                         e->shear * ((1.0 + phi) * (1.0 + psi) + 2.0 * (1.0 - phi) * (1.0 - psi))));
+}
+
+/* Points that have yielded may do so again. */
+static double wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history)
+{
+  struct soil soil;
+  double      most = 0.0, elastic = isotropic_wave_speed(prm, n, rb, stress, history);
+  for (int p = 0; p < n; p++) most = history[p] > most ? history[p] : most;
+  if (!(most > 0.0)) return elastic;
+  read_soil(prm, &soil);
+  double psi = soil.rowe ? 0.0 : soil.psi - soil.psi_loss;
+  return elastic * sqrt(1.0 + excess(&soil.elastic, sin(soil.phi), sin(psi)) / isotropic_oedometer(prm));
+}
+
+static const char *const history_names[] = {"plastic_strain"};
+
+const struct constitutive_model constitutive_mohr_coulomb = {
+    .name = "mohr_coulomb",
+    .source = "1, Mohr-Coulomb",
+    .params = params,
+    .param_size = sizeof(struct mohr_coulomb),
+    .check = check,
+    .n_history = 1,
+    .history = history_names,
+    .update = update,
+    .wave_speed = wave_speed,
+    .energy = isotropic_energy,
+    .yield = yield,
+    .oedometer_modulus = isotropic_oedometer,
+    .lateral_ratio = lateral_ratio,
+};
