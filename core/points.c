@@ -115,6 +115,21 @@ static int cell_of(const struct grid *g, double x, int d)
   return c < g->n[d] ? c : g->n[d] - 1;
 }
 
+bool points_inside(const struct grid *g, const double *x)
+{
+  for (int d = 0; d < g->dim; d++)
+    if (cell_of(g, x[d], d) < 0) return false;
+  return true;
+}
+
+void points_keep_inside(const struct grid *g, struct points *p, const double *x)
+{
+  long n = 0;
+  for (long q = 0; q < p->n; q++)
+    if (points_inside(g, x + q * g->dim)) p->order[n++] = q;
+  p->n = n;
+}
+
 static long sort_key(const struct grid *g, const struct points *p, const double *x, int group)
 {
   long block = 0, factor = 1, local = 0, local_factor = 1;

@@ -38,6 +38,11 @@ long points_block_of_colour(const struct points *p, int dim, int colour, long i)
 void points_wrap(const struct grid *g, long n, double *x);
 /** Whether some point has left its block by more than the margin. x [n][dim] m. */
 bool points_need_sort(const struct grid *g, const struct points *p, const double *x);
+/** Whether a place lies in the grid, its ends included. x [dim] m. */
+bool points_inside(const struct grid *g, const double *x);
+/** From now on the set holds only the points inside the grid, in their order; then points_permute every array and
+ * points_sorted, and sort the set. */
+void points_keep_inside(const struct grid *g, struct points *p, const double *x);
 /** Computes the new order; then points_permute every array. Points outside the grid: ERR_DIVERGED. */
 enum status points_sort(const struct grid *g, struct points *p, const double *x) MUST_CHECK;
 /** Brings one array [n][components] into the order of the last sort. */

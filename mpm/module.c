@@ -24,6 +24,8 @@ static const struct param params[] = {
      "local damping: share of the force on a node that acts against its motion"},
     {"smoothing", PARAM_NUMBER, offsetof(struct mpm_params, smoothing), "-", 0, 1, "0", NULL,
      "hybrid strain smoothing: share of the smoothed velocity gradient in what strains the points; 0: none"},
+    {"stray", PARAM_CHOICE, offsetof(struct mpm_params, stray), "-", 0, 0, "stop", STRAY_WORDS,
+     "points that leave the grid: the run stops, they are put back inside, or they are deleted"},
     PARAM_END,
 };
 
@@ -175,7 +177,7 @@ static double half_step_power(const struct sim *sim, const struct mpm *m, const 
   return 0.5 * sim->dt * power;
 }
 
-static void measure_point(const struct sim *sim, const struct mpm *m, const double gravity[3], long p, struct ledger *l)
+void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double gravity[3], long p, struct ledger *l)
 {
   const struct material *material = scene_material(sim->scene, m->points->group[p]);
   int                    dim = sim->grid.dim;
@@ -186,7 +188,7 @@ static void measure_point(const struct sim *sim, const struct mpm *m, const doub
   for (int q = 0; q < dim * dim; q++) F[q / dim * 3 + q % dim] = m->F_p[p * dim * dim + q];
   material->model->energy(material->model_params, 1, F, m->stress_p + 6 * p,
                           m->history_p ? m->history_p + sim->scene->n_history * p : NULL, &energy);
-  l->v[LEDGER_elastic] += energy * m->volume_p[p] - half_step_power(sim, m, gravity, p);
+  l->v[LEDGER_elastic] += energy * m->volume_p[p];
   measure_motion(sim, m, p, l);
 }
 
@@ -195,11 +197,19 @@ static void measure(const struct sim *sim, struct ledger *l)
   const struct mpm *m = mpm_of(sim);
   double            gravity[3];
   sim_gravity(sim, sim->t, gravity);
-  for (long p = 0; p < m->points->n && m->mass_p; p++) measure_point(sim, m, gravity, p, l);
+  for (long p = 0; p < m->points->n && m->mass_p; p++) {
+    mpm_measure_point(sim, m, gravity, p, l);
+    if (!scene_material(sim->scene, m->points->group[p])->model->held)
+      l->v[LEDGER_elastic] -= half_step_power(sim, m, gravity, p);
+  }
   l->v[LEDGER_work_loads] += m->now.work_loads;
   l->v[LEDGER_plastic] += m->now.plastic;
   l->v[LEDGER_friction] += m->now.friction;
   l->v[LEDGER_damping] += m->now.damping;
+  l->v[LEDGER_mass_solid_out] += m->now.strays.mass_out;
+  l->v[LEDGER_mass_solid_lost] += m->now.strays.mass_lost;
+  for (int d = 0; d < 3; d++) l->v[LEDGER_momentum_out_x + d] += m->now.strays.momentum[d];
+  l->v[LEDGER_energy_out] += m->now.strays.energy;
 }
 
 const struct module module_mpm = {

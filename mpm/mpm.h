@@ -20,10 +20,22 @@ struct mpm_rest {
   int    steps;              /* of the static solve; 0: the columns balance */
 };
 
+enum stray { STRAY_STOP, STRAY_CLAMP, STRAY_DELETE };
+#define STRAY_WORDS "stop|clamp|delete"
+
+/* Points that left the grid, since the start. Doubles, as they are checkpointed. */
+struct mpm_strays {
+  double put_back, deleted, flowed_out; /* points; flowed_out: deleted behind an open side */
+  double mass_lost, mass_out;           /* kg of those deleted, of those that flowed out */
+  double momentum[3], energy;           /* kg m/s, J: what they took along, or lost when they were put back */
+  double last_t, last_x[3], last_solid; /* s, m: the last of them; index of its solid */
+};
+
 /* numerics.mpm.* */
 struct mpm_params {
   double damping;   /* share of the force on a node that acts against its motion */
   double smoothing; /* share of the smoothed velocity gradient in what strains the points */
+  int    stray;     /* enum stray: what happens to points that leave the grid */
 };
 
 struct mpm {
@@ -44,6 +56,8 @@ struct mpm {
     double plastic;           /* J lost to plastic flow, since the start */
     double friction;          /* J lost to friction, since the start */
     double damping;           /* J lost to local damping, since the start */
+
+    struct mpm_strays strays;
   } now;
   double *run_speed;          /* [n_runs][3] what they were made of: speeds, and the plastic work of the step */
   double *row_work;           /* [rows of nodes] J, scratch of sums over nodes */

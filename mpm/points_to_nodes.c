@@ -13,6 +13,7 @@ enum status mpm_sort_points(struct sim *sim, double dt)
   struct mpm *m = mpm_of(sim);
   points_wrap(&sim->grid, m->points->n, m->x_p);
   if (!points_need_sort(&sim->grid, m->points, m->x_p)) return OK;
+  TRY(mpm_handle_strays(sim, m));
   return mpm_sort_now(sim, m);
 }
 

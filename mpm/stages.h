@@ -29,6 +29,10 @@ double      mpm_stress_dt(const struct sim *sim);
 void mpm_move_markers(struct sim *sim, struct mpm *m, double dt);
 /** Velocity of a body's nodes = momentum / mass where there is enough mass, else zero; walls at time t. */
 void mpm_velocities(const struct sim *sim, const struct mpm *m, const struct body_nodes *b, double t, double *vel_nc);
+/** Deals with points outside the grid as numerics.mpm.stray says; the set must be sorted after it. */
+enum status mpm_handle_strays(struct sim *sim, struct mpm *m) MUST_CHECK;
+/** Adds mass, momentum and energy of point p; energies not yet at the time of the velocities. */
+void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double gravity[3], long p, struct ledger *l);
 /** Sorts the set now, whether needed or not. */
 enum status mpm_sort_now(struct sim *sim, struct mpm *m) MUST_CHECK;
 /** Gradient at the points of their bodies' new nodal velocity, into gradv [n][dim][dim]. */

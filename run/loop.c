@@ -45,6 +45,7 @@ struct run {
   char                      folder[1024];
   double                    t_end, gauge_interval, wall_start, cpu_start, checkpoint_wall;
   struct counts             counts;
+  long                      strays_before;             /* points that had left the grid when this process began */
   double                   *seconds, *calls, *limited; /* per stage; limited has one more for numerics.dt_max */
 };
 
@@ -137,7 +138,7 @@ static enum status sample(struct run *r)
   struct ledger                 *l = &r->sim->ledger;
   const double                  *start = r->sim->ledger_start.v;
   static const enum ledger_entry energies[] = {LEDGER_kinetic_solid, LEDGER_kinetic_fluid, LEDGER_potential,
-                                               LEDGER_elastic, LEDGER_compression};
+                                               LEDGER_elastic,       LEDGER_compression,   LEDGER_energy_out};
   double                         now, before = 0, scale;
   sim_measure(r->sim, l);
   now = start[LEDGER_work_loads] - l->v[LEDGER_work_loads];
@@ -268,8 +269,27 @@ static enum status handle_event(struct run *r)
   return OK;
 }
 
+/* the first point that leaves the grid is told of at once, also in a quiet run */
+static void tell_strays(struct run *r)
+{
+  const struct mpm        *m = mpm_of(r->sim);
+  const struct mpm_strays *s = m ? &m->now.strays : NULL;
+  long                     now = s ? (long)(s->put_back + s->deleted + s->flowed_out) : 0;
+  if (r->progress.strays < 0) r->progress.strays = r->strays_before = now;
+  if (now == r->progress.strays) return;
+  if (r->progress.strays == r->strays_before)
+    fprintf(stderr,
+            "%smpmice: warning: a point of solids.%s left the grid at (%.6g, %.6g, %.6g) at t = %.6g s and was %s "
+            "(numerics.mpm.stray); others are only counted\n",
+            r->progress.terminal && !r->progress.quiet ? "\r\033[K" : "",
+            r->sim->scene->solids[(int)s->last_solid].name, s->last_x[0], s->last_x[1], s->last_x[2], s->last_t,
+            mpm_params(r->sim->scene)->stray == STRAY_CLAMP ? "put back" : "deleted");
+  r->progress.strays = now;
+}
+
 static enum status advance(struct run *r)
 {
+  tell_strays(r);
   while (r->events.next < r->events.n) {
     bool event;
     TRY(step(r, &event));
@@ -277,6 +297,7 @@ static enum status advance(struct run *r)
     bool due = r->sim->t >= r->counts.gauge_samples * r->gauge_interval;
     if (due) r->counts.gauge_samples = floor(r->sim->t / r->gauge_interval) + 1;
     if (due && !event) TRY(sample(r));
+    tell_strays(r);
     progress_step(&r->progress, r->sim->t, r->sim->dt, r->sim->step);
     if (progress_stop_asked())
       return FAIL(INTERRUPTED, "interrupted at t = %g s; go on with: mpmice resume %s", r->sim->t, r->folder);
@@ -290,6 +311,12 @@ static double relative(double now, double before)
   return before != 0 ? fabs(now - before) / fabs(before) : fabs(now);
 }
 
+/* with what left the grid */
+static double solid_mass(const double *ledger)
+{
+  return ledger[LEDGER_mass_solid] + ledger[LEDGER_mass_solid_out] + ledger[LEDGER_mass_solid_lost];
+}
+
 static void fill_ledger(const struct run *r, struct run_record *record)
 {
   const double *now = r->sim->ledger.v, *before = r->sim->ledger_start.v;
@@ -300,7 +327,8 @@ static void fill_ledger(const struct run *r, struct run_record *record)
   }
   scale = sqrt(2 * (now[LEDGER_mass_solid] + now[LEDGER_mass_fluid]) *
                (before[LEDGER_kinetic_solid] + before[LEDGER_kinetic_fluid]));
-  record->mass_solid_rel = relative(now[LEDGER_mass_solid], before[LEDGER_mass_solid]);
+  record->mass_solid_rel =
+      relative(solid_mass(now) - solid_mass(before) + before[LEDGER_mass_solid], before[LEDGER_mass_solid]);
   record->mass_fluid_rel = relative(now[LEDGER_mass_fluid] + now[LEDGER_mass_fluid_out] - before[LEDGER_mass_fluid_out],
                                     before[LEDGER_mass_fluid]);
   record->momentum_rel = scale > 0 ? sqrt(momentum) / scale : 0;
@@ -335,6 +363,12 @@ static void fill_record(const struct run *r, struct run_record *record)
       .defect_rms_max = sim->defect_rms_max,
       .defect_max = sim->defect_max,
   };
+  if (mpm_of(sim)) {
+    const struct mpm_strays *s = &mpm_of(sim)->now.strays;
+    record->points_put_back = (long)s->put_back;
+    record->points_deleted = (long)s->deleted;
+    record->points_flowed_out = (long)s->flowed_out;
+  }
   fill_ledger(r, record);
   start_check_fill(sim, &r->counts.start, &record->start);
 }

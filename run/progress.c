@@ -56,7 +56,8 @@ void progress_start(struct progress *progress, FILE *out, bool quiet, double t, 
                                 .wall_first = now,
                                 .wall_shown = now,
                                 .step_first = step,
-                                .step_shown = step};
+                                .step_shown = step,
+                                .strays = -1};
 }
 
 /* "2 min 03 s": what is left, or has gone by */
@@ -76,6 +77,7 @@ static void print_state(const struct progress *p, double now, double t, double d
   double spent = now - p->wall_first, since = now - p->wall_shown;
   fprintf(p->out, "Progress %.1f%%  t = %.6g s, dt = %.3g s, %.0f steps/s", 100 * t / p->t_end, t, dt,
           since > 0 ? (double)(step - p->step_shown) / since : 0);
+  if (p->strays > 0) fprintf(p->out, ", %ld points left the grid", p->strays);
   if (part > 0) {
     fprintf(p->out, ", left ");
     print_span(p->out, spent * (1 - part) / part);
@@ -116,6 +118,7 @@ void progress_end(struct progress *progress, double t, long step)
   if (p->terminal) fprintf(p->out, "\r\033[K");
   fprintf(p->out, "Reached t = %.6g s after %ld steps in ", t, step - p->step_first);
   print_span(p->out, progress_clock() - p->wall_first);
+  if (p->strays > 0) fprintf(p->out, "; %ld points left the grid", p->strays);
   fprintf(p->out, "\n");
   fflush(p->out);
 }

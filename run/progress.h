@@ -11,6 +11,7 @@ struct progress {
   double t_first, t_end;         /* s of simulated time: where this process started, where it ends */
   double wall_first, wall_shown; /* s of the monotonic clock */
   long   step_first, step_shown;
+  long   strays; /* points that left the grid since the start of the run; -1: not counted yet */
 };
 
 /** s of the monotonic clock. */

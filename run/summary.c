@@ -22,6 +22,10 @@ static void add_what(cJSON *root, const struct run_record *r)
   number(root, "cells", (double)r->cells);
   number(root, "points_solid", (double)r->points_solid);
   number(root, "points_fluid", (double)r->points_fluid);
+  cJSON *strays = cJSON_AddObjectToObject(root, "points_strayed");
+  number(strays, "put_back", (double)r->points_put_back);
+  number(strays, "deleted", (double)r->points_deleted);
+  number(strays, "flowed_out", (double)r->points_flowed_out);
   number(root, "steps", (double)r->steps);
   number(root, "t_end", r->t_end);
 }

@@ -30,6 +30,8 @@ static struct run_record record(void)
                              .threads = 2,
                              .ranks = 1,
                              .cells = 3000000000,
+                             .points_deleted = 3,
+                             .points_flowed_out = 5,
                              .steps = 42,
                              .t_end = 0.1,
                              .dt_min = 1e-5,
@@ -56,11 +58,11 @@ static double number(const cJSON *root, const char *path)
 
 START_TEST(summary_holds_what_it_promises)
 {
-  static const char *const keys[] = {"scene",    "fluid_path",      "version",       "threads",        "ranks",
-                                     "cells",    "points_solid",    "points_fluid",  "steps",          "t_end",
-                                     "dt",       "wall_s",          "cpu_s",         "peak_rss_bytes", "stages",
-                                     "left_out", "pressure_solver", "volume_defect", "ledger",         "metrics",
-                                     "status"};
+  static const char *const keys[] = {"scene",   "fluid_path",   "version",         "threads",        "ranks",
+                                     "cells",   "points_solid", "points_fluid",    "points_strayed", "steps",
+                                     "t_end",   "dt",           "wall_s",          "cpu_s",          "peak_rss_bytes",
+                                     "stages",  "left_out",     "pressure_solver", "volume_defect",  "ledger",
+                                     "metrics", "status"};
   struct fake_run          r;
   const struct run_record  rec = record();
   char                     path[LONGEST_PATH];
@@ -73,6 +75,9 @@ START_TEST(summary_holds_what_it_promises)
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
     ck_assert_msg(json_member(root, keys[i]) != NULL, "%s", keys[i]);
   ck_assert_double_eq(number(root, "cells"), 3e9);
+  ck_assert_double_eq(number(root, "points_strayed.put_back"), 0);
+  ck_assert_double_eq(number(root, "points_strayed.deleted"), 3);
+  ck_assert_double_eq(number(root, "points_strayed.flowed_out"), 5);
   ck_assert_double_eq(number(root, "dt.mean"), 0.1 / 42);
   ck_assert_double_eq(number(json_find(root, "dt.limited_by"), "numerics.dt_max"), 1);
   ck_assert_double_eq(number(root, "pressure_solver.iterations_mean"), 2.5);
