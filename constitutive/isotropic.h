@@ -24,6 +24,9 @@ static inline double isotropic_lambda(const struct isotropic *e)
 /** Pa: shear modulus. */
 static inline double isotropic_shear(const struct isotropic *e) { return 0.5 * e->young / (1.0 + e->poisson); }
 
+/** Pa: bulk modulus lambda + 2/3 mu. */
+static inline double isotropic_bulk(const struct isotropic *e) { return e->young / (3.0 * (1.0 - 2.0 * e->poisson)); }
+
 /** Pa: constrained modulus lambda + 2 mu. */
 static inline double isotropic_oedometer(const void *prm) { return isotropic_lambda(prm) + 2.0 * isotropic_shear(prm); }
 
