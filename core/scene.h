@@ -77,17 +77,19 @@ struct tracer {
   double x[3];
 };
 
-enum gauge_kind { GAUGE_POINT, GAUGE_LINE, GAUGE_INTEGRAL, GAUGE_MEAN, GAUGE_TRACER, GAUGE_LOAD };
-#define GAUGE_WORDS "point|line|integral|mean|tracer|load"
+enum gauge_kind { GAUGE_POINT, GAUGE_LINE, GAUGE_INTEGRAL, GAUGE_MEAN, GAUGE_TRACER, GAUGE_LOAD, GAUGE_EXTENT };
+#define GAUGE_WORDS "point|line|integral|mean|tracer|load|extent"
 
 struct gauge {
   char   name[NAME_LENGTH];
   int    kind;
-  char   of[NAME_LENGTH]; /* output name of a field, with _x _yy ... for a component; or a ledger entry, or energy */
-  char   on[NAME_LENGTH]; /* GAUGE_TRACER, GAUGE_LOAD: its name */
-  double x[3], to[3];     /* m: the point, the ends of the line, or where a tracer's distance is taken from */
-  int    n;               /* samples of a line */
-  struct shape region;    /* of integrals and means */
+  char   of[NAME_LENGTH];    /* output name of a field, with _x _yy ... for a component; or a ledger entry, or energy */
+  char   on[NAME_LENGTH];    /* GAUGE_TRACER, GAUGE_LOAD: its name; GAUGE_EXTENT: a solid, "water"; "": every solid */
+  char   minus[NAME_LENGTH]; /* another gauge, whose number is taken off; "": none */
+  double x[3], to[3];        /* m: the point, the ends of the line, or where a tracer's distance is taken from */
+  int    n;                  /* samples of a line */
+  bool   connected;          /* GAUGE_EXTENT: of the largest cluster */
+  struct shape region;       /* of integrals and means */
 };
 
 struct reference_use {
@@ -105,15 +107,18 @@ enum metric_measure {
   MEASURE_FREQUENCY,
   MEASURE_DECAY,    /* Hz, 1/s: of the damped oscillation of a gauge */
   MEASURE_DRIFT,    /* largest departure of a gauge from its first value in the span, over that value */
+  MEASURE_REACH,    /* s: when a gauge has come a share of its way from the first to the last sample in the span */
+  MEASURE_SCATTER,  /* rms of a field of points about a plane through the 4 cells around along each axis */
   MEASURE_ROUGHNESS /* standard deviation of h2 times the Laplacian of a cell field */
 };
-#define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|roughness"
+#define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|reach|scatter|roughness"
 
 struct metric {
   char            name[NAME_LENGTH];
   int             measure;
   char            field[NAME_LENGTH];     /* of cells or points at one time ... */
   char            gauge[NAME_LENGTH];     /* ... or of a gauge over a span of time */
+  char            over[NAME_LENGTH];      /* a gauge whose number at the same time the result is divided by; "": none */
   char            reference[NAME_LENGTH]; /* "name.quantity"; empty: the value itself */
   struct function expected;               /* used when reference is empty */
   struct shape    region;
@@ -121,6 +126,7 @@ struct metric {
   bool            scaled_time;
   double          scale;  /* result is divided by it; 0: by the reference's scale of that quantity */
   double          offset; /* added to the gauge before comparing */
+  double          share;  /* MEASURE_REACH: of the way */
 };
 
 /* Bodies that meet: each has its own velocities at the nodes. */

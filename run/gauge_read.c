@@ -1,5 +1,6 @@
 /* Readers: a gauge of the scene made ready to give its number at any time. */
 #include "run/gauge_read.h"
+#include "run/gauge_extent.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -197,6 +198,13 @@ static double read_energy(const struct gauge_reader *r, const struct sim *sim)
          v[LEDGER_compression];
 }
 
+/* potential energy that is gone since the start */
+static double read_released(const struct gauge_reader *r, const struct sim *sim)
+{
+  (void)r;
+  return sim->ledger_start.v[LEDGER_potential] - sim->ledger.v[LEDGER_potential];
+}
+
 double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim)
 {
   if (reader->view.field) fields_refresh(sim, &reader->view);
@@ -316,17 +324,23 @@ enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge
                                 const struct marker_finder *markers, struct gauge_reader *reader)
 {
   const bool  energy = gauge->kind == GAUGE_INTEGRAL && strcmp(gauge->of, "energy") == 0;
+  const bool  released = gauge->kind == GAUGE_INTEGRAL && strcmp(gauge->of, "released") == 0;
   const char *unit = "J";
   memset(reader, 0, sizeof *reader);
   snprintf(reader->name, sizeof reader->name, "%s", gauge->name);
   if (gauge->kind == GAUGE_LINE) snprintf(reader->name, sizeof reader->name, "%s.%d", gauge->name, sample);
   if (gauge->kind == GAUGE_POINT || gauge->kind == GAUGE_LINE) return create_point(sim, gauge, sample, reader);
   if (gauge->kind == GAUGE_TRACER || gauge->kind == GAUGE_LOAD) return create_marker(sim, gauge, markers, reader);
+  if (gauge->kind == GAUGE_EXTENT) return gauge_extent_create(sim, gauge, reader);
   reader->ledger = gauge->kind == GAUGE_INTEGRAL ? find_ledger(gauge->of, &unit) : -1;
-  if (reader->ledger < 0 && !energy) return create_region(sim, gauge, reader);
+  if (reader->ledger < 0 && !energy && !released) return create_region(sim, gauge, reader);
   snprintf(reader->unit, sizeof reader->unit, "%s", unit);
-  reader->read = energy ? read_energy : read_ledger;
+  reader->read = energy ? read_energy : released ? read_released : read_ledger;
   return OK;
 }
 
-void gauge_reader_destroy(struct gauge_reader *reader) { memory_free(&reader->cells); }
+void gauge_reader_destroy(struct gauge_reader *reader)
+{
+  memory_free(&reader->cells);
+  gauge_extent_destroy(reader);
+}

@@ -9,22 +9,25 @@ struct marker_finder {
   void (*range)(const struct sim *sim, const char *name, long *first, long *end);
 };
 
+struct gauge_extent; /* run/gauge_extent.c */
+
 /* One column of gauges.csv. */
 struct gauge_reader {
   char name[NAME_LENGTH + 16], unit[NAME_LENGTH];
   double (*read)(const struct gauge_reader *reader, const struct sim *sim);
-  struct field_view   view;
-  int                 component;
-  double              x[3];    /* m: where a point is read */
-  long                cell[8]; /* cells around x and what each counts */
-  double              weight[8];
-  const struct shape *region;  /* of means and integrals */
-  long                n_cells; /* owned cells whose centre lies in the region */
-  long               *cells;
-  struct field_view   volume; /* of points: what means and integrals weigh them with; data NULL: unknown */
-  struct field_view   start;  /* of markers: where they were at the start */
-  int                 ledger;
-  long                first, end; /* markers */
+  struct field_view    view;
+  int                  component;
+  double               x[3];    /* m: where a point is read */
+  long                 cell[8]; /* cells around x and what each counts */
+  double               weight[8];
+  const struct shape  *region;  /* of means and integrals */
+  long                 n_cells; /* owned cells whose centre lies in the region */
+  long                *cells;
+  struct field_view    volume; /* of points: what means and integrals weigh them with; data NULL: unknown */
+  struct field_view    start;  /* of markers: where they were at the start */
+  int                  ledger;
+  long                 first, end; /* markers */
+  struct gauge_extent *extent;     /* NULL: not of that kind */
 };
 
 /** Number of columns of a gauge: the samples of a line, else 1. */

@@ -19,6 +19,8 @@ struct gauges {
   FILE                *file; /* NULL until the first sample */
   int                  n_columns;
   struct gauge_reader *readers; /* [n_columns] */
+  int                 *minus;   /* [n_columns] column that is taken off; -1: none */
+  double              *now;     /* [n_columns] before anything is taken off */
   long                 n, capacity;
   double              *t, *v; /* [capacity] s, [n_columns][capacity] */
 };
@@ -30,6 +32,25 @@ double gauges_interval(const struct scene *scene)
 
 /* ---- creation ---- */
 
+static int find_column(const struct gauges *g, const char *name)
+{
+  for (int c = 0; c < g->n_columns; c++)
+    if (strcmp(g->readers[c].name, name) == 0) return c;
+  return -1;
+}
+
+static enum status find_minus(const struct scene *scene, struct gauges *g)
+{
+  TRY(NEW(&g->minus, g->n_columns));
+  TRY(NEW(&g->now, g->n_columns));
+  for (int c = 0; c < g->n_columns; c++) g->minus[c] = -1;
+  for (int i = 0; i < scene->n_gauges; i++) {
+    const struct gauge *gauge = &scene->gauges[i];
+    if (*gauge->minus) g->minus[find_column(g, gauge->name)] = find_column(g, gauge->minus);
+  }
+  return OK;
+}
+
 static enum status create_readers(const struct sim *sim, const struct marker_finder *markers, struct gauges *g)
 {
   int n = 0;
@@ -38,7 +59,7 @@ static enum status create_readers(const struct sim *sim, const struct marker_fin
   for (int i = 0; i < sim->scene->n_gauges; i++)
     for (int s = 0; s < gauge_columns(&sim->scene->gauges[i]); s++)
       TRY(gauge_reader_create(sim, &sim->scene->gauges[i], s, markers, &g->readers[g->n_columns++]));
-  return OK;
+  return find_minus(sim->scene, g);
 }
 
 static enum status create_in(const struct sim *sim, const char *folder, const struct marker_finder *markers,
@@ -70,6 +91,8 @@ void gauges_destroy(struct gauges **gauges)
   if (g->file) fclose(g->file);
   for (int c = 0; c < g->n_columns; c++) gauge_reader_destroy(&g->readers[c]);
   memory_free(&g->readers);
+  memory_free(&g->minus);
+  memory_free(&g->now);
   memory_free(&g->t);
   memory_free(&g->v);
   memory_free(gauges);
@@ -91,13 +114,6 @@ static enum status enlarge(struct gauges *g)
   g->v = v;
   g->capacity = capacity;
   return OK;
-}
-
-static int find_column(const struct gauges *g, const char *name)
-{
-  for (int c = 0; c < g->n_columns; c++)
-    if (strcmp(g->readers[c].name, name) == 0) return c;
-  return -1;
 }
 
 enum status gauges_series(const struct gauges *gauges, const char *name, long *n, const double **t, const double **v)
@@ -165,7 +181,9 @@ enum status gauges_sample(struct gauges *gauges, const struct sim *sim)
   if (g->n == g->capacity) TRY(enlarge(g));
   if (!g->file) TRY(start_file(g));
   g->t[g->n] = sim->t;
-  for (int c = 0; c < g->n_columns; c++) g->v[c * g->capacity + g->n] = gauge_reader_read(&g->readers[c], sim);
+  for (int c = 0; c < g->n_columns; c++) g->now[c] = gauge_reader_read(&g->readers[c], sim);
+  for (int c = 0; c < g->n_columns; c++)
+    g->v[c * g->capacity + g->n] = g->now[c] - (g->minus[c] >= 0 ? g->now[g->minus[c]] : 0);
   print_row(g, g->n++, g->file);
   return fflush(g->file) == 0 ? OK : failed(g);
 }

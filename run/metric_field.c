@@ -116,6 +116,8 @@ enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, do
                             double *expected)
 {
   struct tally a = {.m = m, .t = sim->t, .difference = difference};
+  *expected = 0;
+  if (m->metric->measure == MEASURE_SCATTER) return metric_of_scatter(m, sim, difference, result);
   fields_refresh(sim, &m->view);
   if (m->wet.field) fields_refresh(sim, &m->wet);
   if (difference)

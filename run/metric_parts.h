@@ -30,10 +30,18 @@ enum status expectancy_values(const struct expectancy *e, int n, const double (*
  *  scale. *relative: the result has no unit. */
 double metric_scale(const struct compiled_metric *m, double expected, bool *relative);
 
-/** Result of a field metric now, before scaling; `expected`: mean of what was expected. difference [grid.size] is
- *  scratch of roughness, NULL for other measures. ERR_INPUT: nothing lies in its region. */
+/** Result of a field metric now, before scaling; `expected`: mean of what was expected. difference
+ *  [SCATTER_SCRATCH grid.size] is scratch of roughness and scatter, NULL for other measures. ERR_INPUT: nothing lies in
+ * its region. */
 enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, double *difference, double *result,
                             double *expected) MUST_CHECK;
+enum { SCATTER_SCRATCH = 5 };
+/** Root mean square of a field of points about a plane through the means of the 4 cells around along each axis, over
+ * the points of the region whose cells around all hold points. scratch [SCATTER_SCRATCH grid.size]. */
+enum status metric_of_scatter(struct compiled_metric *m, const struct sim *sim, double *scratch,
+                              double *result) MUST_CHECK;
+/** Value of a series of n samples at a time between two of them. */
+double metric_interpolate(long n, const double *t, const double *v, double at);
 /** Result of a gauge metric from the samples v [n] at t [n] s, before scaling. */
 enum status metric_of_series(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
                              double *expected) MUST_CHECK;

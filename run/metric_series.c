@@ -57,8 +57,7 @@ static enum status expected_at(const struct compiled_metric *m, double t, double
   return expectancy_values(&m->expected, 1, (const double(*)[3])m->x, t, v);
 }
 
-/* value at a time between two samples */
-static double interpolate(long n, const double *t, const double *v, double at)
+double metric_interpolate(long n, const double *t, const double *v, double at)
 {
   long i = 1;
   if (n == 1 || at <= t[0]) return v[0];
@@ -71,7 +70,7 @@ static enum status value(const struct compiled_metric *m, long n, const double *
                          double *expected)
 {
   TRY(expected_at(m, m->at, expected));
-  *result = interpolate(n, t, v, m->at) + m->metric->offset - *expected;
+  *result = metric_interpolate(n, t, v, m->at) + m->metric->offset - *expected;
   return OK;
 }
 
@@ -136,6 +135,22 @@ static enum status drift(const struct compiled_metric *m, long n, const double *
   return OK;
 }
 
+/* s: when the series has first come its share of the way from the first to the last sample */
+static enum status reach(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
+                         double *expected)
+{
+  double way = v[n - 1] - v[0], part = m->metric->share * way;
+  long   i = 0;
+  TRY(expected_at(m, m->to, expected));
+  if (way == 0)
+    return FAIL(ERR_INPUT, "metrics.%s: %s ends where it began, at %g; there is no way to go", m->metric->name,
+                m->metric->gauge, v[0]);
+  while ((v[i] - v[0]) / way < m->metric->share) i++;
+  *result = i == 0 ? t[0] : t[i - 1] + (t[i] - t[i - 1]) * (v[0] + part - v[i - 1]) / (v[i] - v[i - 1]);
+  *result -= *expected;
+  return OK;
+}
+
 enum status metric_of_series(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
                              double *expected)
 {
@@ -153,6 +168,8 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
   case MEASURE_FREQUENCY:
   case MEASURE_DECAY:
     return oscillation(m, n, t, v, result, expected);
+  case MEASURE_REACH:
+    return reach(m, n, t, v, result, expected);
   case MEASURE_DRIFT:
     return drift(m, n, v, result);
   default:

@@ -17,7 +17,7 @@ struct metrics {
   struct compiled_metric *m;          /* [n] */
   double                 *values;     /* [2 n]: results before scaling; what was expected */
   double                 *times;      /* [n_times] */
-  double                 *difference; /* [grid.size], NULL without roughness */
+  double                 *difference; /* [SCATTER_SCRATCH grid.size], NULL without roughness or scatter */
   struct metric_entry    *entries;    /* [n] */
   char (*units)[NAME_LENGTH];         /* [n] */
 };
@@ -62,6 +62,12 @@ static void find_expected(const struct scene *scene, const struct metric *metric
 
 /* ---- creation ---- */
 
+/* whether it sums in cells: scratch */
+static bool needs_cells(const struct metric *m)
+{
+  return m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER;
+}
+
 static enum status find_field(const struct sim *sim, struct compiled_metric *m)
 {
   char why[512];
@@ -72,6 +78,9 @@ static enum status find_field(const struct sim *sim, struct compiled_metric *m)
   }
   if (m->view.field->at == AT_CELL && fields_component(sim, "cells.wet", &m->wet, &component) != OK)
     memset(&m->wet, 0, sizeof m->wet);
+  if (m->metric->measure == MEASURE_SCATTER && m->view.field->at == AT_CELL)
+    return FAIL(ERR_INPUT, "metrics.%s.field: scatter is known of fields of points, %s belongs to cells",
+                m->metric->name, m->metric->field);
   if (m->metric->measure == MEASURE_ROUGHNESS && m->view.field->at != AT_CELL)
     return FAIL(ERR_INPUT, "metrics.%s.field: roughness is known of fields of cells, %s belongs to points",
                 m->metric->name, m->metric->field);
@@ -91,7 +100,8 @@ static enum status compile(const struct sim *sim, const struct metric *metric, s
   m->from = metric->from * unit;
   m->to = fmin(metric->to * unit, isfinite(metric->to) ? INFINITY : sim->scene->time_end);
   m->single = metric->measure == MEASURE_VALUE || metric->measure == MEASURE_MEAN ||
-              metric->measure == MEASURE_FREQUENCY || metric->measure == MEASURE_DECAY;
+              metric->measure == MEASURE_FREQUENCY || metric->measure == MEASURE_DECAY ||
+              metric->measure == MEASURE_REACH;
   if (*metric->field) return find_field(sim, m);
   metric_place_gauge(sim->scene, metric->gauge, m->x);
   return OK;
@@ -138,8 +148,8 @@ static enum status fill(const struct sim *sim, struct metrics *metrics)
   for (int i = 0; i < metrics->n; i++) {
     metrics->values[i] = NAN;
     TRY(compile(sim, &scene->metrics[i], &metrics->m[i]));
-    if (scene->metrics[i].measure == MEASURE_ROUGHNESS && !metrics->difference)
-      TRY(NEW(&metrics->difference, sim->grid.size));
+    if (needs_cells(&scene->metrics[i]) && !metrics->difference)
+      TRY(NEW(&metrics->difference, SCATTER_SCRATCH * sim->grid.size));
   }
   collect_times(metrics);
   return OK;
@@ -186,11 +196,10 @@ enum status metrics_sample(struct metrics *metrics, const struct sim *sim)
 {
   for (int i = 0; i < metrics->n; i++) {
     struct compiled_metric *m = &metrics->m[i];
-    bool                    rough = m->metric->measure == MEASURE_ROUGHNESS;
     if (!*m->metric->field || !isnan(metrics->values[i]) || !in_reach(metrics->scene, m, metrics->scene->time_end))
       continue;
     if (sim->t < m->at - tolerance(metrics->scene)) continue;
-    TRY(metric_of_field(m, sim, rough ? metrics->difference : NULL, &metrics->values[i],
+    TRY(metric_of_field(m, sim, needs_cells(m->metric) ? metrics->difference : NULL, &metrics->values[i],
                         &metrics->values[metrics->n + i]));
   }
   return OK;
@@ -210,16 +219,30 @@ static enum status measure_gauge(struct metrics *metrics, int i, const struct ga
   return OK;
 }
 
+/* what "over" divides by: a gauge at the time of the metric */
+static double divisor(const struct compiled_metric *m, const struct gauges *gauges)
+{
+  const double *t, *v;
+  long          n;
+  if (gauges_series(gauges, m->metric->over, &n, &t, &v) != OK || n == 0) return NAN;
+  return fabs(metric_interpolate(n, t, v, m->metric->measure == MEASURE_VALUE ? m->at : m->to));
+}
+
 static void judge(struct metrics *metrics, int i, const struct gauges *gauges, const struct loaded_scene *loaded)
 {
   const struct compiled_metric *m = &metrics->m[i];
   struct metric_entry          *entry = &metrics->entries[metrics->n_entries++];
   struct expectation            limit = {0};
   bool                          relative;
-  double      scale = metric_scale(m, metrics->values[metrics->n + i], &relative), value = metrics->values[i] / scale;
+  double scale = metric_scale(m, metrics->values[metrics->n + i], &relative), value = metrics->values[i] / scale;
+  if (*m->metric->over) {
+    value = metrics->values[i] / divisor(m, gauges);
+    relative = true;
+  }
   const char *unit = *m->metric->field ? m->view.field->unit : gauges_unit(gauges, m->metric->gauge);
   if (m->metric->measure == MEASURE_FREQUENCY) unit = "Hz";
   if (m->metric->measure == MEASURE_DECAY) unit = "1/s";
+  if (m->metric->measure == MEASURE_REACH) unit = "s";
   snprintf(metrics->units[i], sizeof metrics->units[i], "%s", relative ? "-" : unit);
   if (loaded) scene_expected(loaded, m->metric->name, &limit);
   *entry = (struct metric_entry){.name = m->metric->name,

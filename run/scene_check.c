@@ -170,17 +170,24 @@ static bool has_gauge(const struct scene *scene, const char *name)
 static enum status check_metric_source(struct reader *reader, const struct scene *scene, const struct metric *m)
 {
   struct names names = {0};
-  bool         of_gauge = m->measure == MEASURE_FREQUENCY || m->measure == MEASURE_DECAY || m->measure == MEASURE_DRIFT;
+  bool of_gauge = m->measure == MEASURE_FREQUENCY || m->measure == MEASURE_DECAY || m->measure == MEASURE_DRIFT ||
+                  m->measure == MEASURE_REACH;
+  bool of_field = m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER;
   at(reader, "metrics.%s", m->name);
   if ((*m->field != '\0') == (*m->gauge != '\0'))
     return reader_fail(reader, "it needs one of \"field\" and \"gauge\"; give exactly one");
   if (*m->field && of_gauge)
-    return reader_fail(reader, "frequency, decay and drift belong to a gauge, not to the field %s; give \"gauge\"",
-                       m->field);
-  if (*m->gauge && m->measure == MEASURE_ROUGHNESS)
-    return reader_fail(reader, "roughness belongs to a field, not to the gauge %s; give \"field\"", m->gauge);
-  if (*m->field || has_gauge(scene, m->gauge)) return OK;
+    return reader_fail(
+        reader, "frequency, decay, drift and reach belong to a gauge, not to the field %s; give \"gauge\"", m->field);
+  if (*m->gauge && of_field)
+    return reader_fail(reader, "roughness and scatter belong to a field, not to the gauge %s; give \"field\"",
+                       m->gauge);
+  if (*m->over && !*m->gauge)
+    return reader_fail(reader, "\"over\" divides gauges, %s is a field; use \"scale\"", m->field);
   for (int i = 0; i < scene->n_gauges; i++) names_add(&names, scene->gauges[i].name);
+  if (*m->over && !has_gauge(scene, m->over))
+    return reader_unknown(at(reader, "metrics.%s.over", m->name), "gauge", m->over, &names);
+  if (*m->field || has_gauge(scene, m->gauge)) return OK;
   return reader_unknown(at(reader, "metrics.%s.gauge", m->name), "gauge (a line is \"name.0\")", m->gauge, &names);
 }
 

@@ -50,6 +50,7 @@ static void add_ledger(struct words *words)
   };
   for (int i = 0; i < N_LEDGER; i++) add_word(words, "", entries[i], "");
   add_word(words, "", "energy", "");
+  add_word(words, "", "released", "");
 }
 
 static void add_marker(const struct scene *scene, struct words *words)
@@ -60,6 +61,15 @@ static void add_marker(const struct scene *scene, struct words *words)
     add_word(words, "", "position", axes[d]);
   }
   add_word(words, "", "distance", "");
+}
+
+static void add_ends(const struct scene *scene, struct words *words)
+{
+  static const char *const ends[] = {"x", "y", "z"};
+  for (int d = 0; d < scene->dim; d++) {
+    add_word(words, "", ends[d], "max");
+    add_word(words, "", ends[d], "min");
+  }
 }
 
 static enum status check_word(struct reader *reader, const char *word, const struct words *words,
@@ -78,8 +88,11 @@ static enum status check_gauge(struct reader *reader, const struct scene *scene,
   bool         marker = g->kind == GAUGE_TRACER || g->kind == GAUGE_LOAD;
   snprintf(reader->path, sizeof reader->path, "gauges.%s.of", g->name);
   if (marker) add_marker(scene, &words);
-  if (!marker) add_fields(scene, &words, false);
-  if (!marker) add_fields(scene, &with_set, true);
+  if (g->kind == GAUGE_EXTENT) add_ends(scene, &words);
+  if (!marker && g->kind != GAUGE_EXTENT) {
+    add_fields(scene, &words, false);
+    add_fields(scene, &with_set, true);
+  }
   if (g->kind == GAUGE_INTEGRAL) add_ledger(&words);
   return check_word(reader, g->of, &words, &with_set);
 }

@@ -199,9 +199,14 @@ static const struct section tracer_section = {.meaning = "massless point that mo
   {                                                                                                                    \
     "on", PARAM_TEXT, AT(gauge, on), "-", 0, 0, NULL, NULL, "name of the tracer or load"                               \
   }
+#define GAUGE_MINUS                                                                                                    \
+  {                                                                                                                    \
+    "minus", PARAM_TEXT, AT(gauge, minus), "-", 0, 0, "", NULL, "name of a gauge whose number is taken off"            \
+  }
 static const struct param gauge_point[] = {
     GAUGE_OF,
     {"at", PARAM_VECTOR, AT(gauge, x), "m", -1e9, INFINITY, NULL, NULL, "place; null: the middle of that axis"},
+    GAUGE_MINUS,
     PARAM_END};
 static const struct param gauge_line[] = {
     GAUGE_OF,
@@ -211,12 +216,22 @@ static const struct param gauge_line[] = {
     PARAM_END};
 static const struct param gauge_region[] = {
     {"of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL, "output field with component, or an entry of the ledger"},
+    GAUGE_MINUS,
     PARAM_END};
-static const struct param gauge_load[] = {GAUGE_OF, GAUGE_ON, PARAM_END};
+static const struct param gauge_load[] = {GAUGE_OF, GAUGE_ON, GAUGE_MINUS, PARAM_END};
+static const struct param gauge_extent[] = {
+    {"of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL,
+     "end of an axis, such as x_max or y_min: the farthest point that way"},
+    {"on", PARAM_TEXT, AT(gauge, on), "-", 0, 0, "", NULL, "name of a solid, or water; empty: every solid"},
+    {"connected", PARAM_FLAG, AT(gauge, connected), "-", 0, 0, "true", NULL,
+     "points count that hang together: those of the largest cluster of cells, face to face, that hold some"},
+    GAUGE_MINUS,
+    PARAM_END};
 static const struct param gauge_tracer[] = {
     GAUGE_OF,
     GAUGE_ON,
     {"at", PARAM_VECTOR, AT(gauge, x), "m", -1e9, 1e9, "0", NULL, "where its distance is taken from"},
+    GAUGE_MINUS,
     PARAM_END};
 
 /* in the order of enum gauge_kind */
@@ -224,7 +239,8 @@ static bool gauge_row(int i, struct row *row)
 {
   static const struct row rows[] = {{"point", NULL, gauge_point, 0, NULL},     {"line", NULL, gauge_line, 0, NULL},
                                     {"integral", NULL, gauge_region, 0, NULL}, {"mean", NULL, gauge_region, 0, NULL},
-                                    {"tracer", NULL, gauge_tracer, 0, NULL},   {"load", NULL, gauge_load, 0, NULL}};
+                                    {"tracer", NULL, gauge_tracer, 0, NULL},   {"load", NULL, gauge_load, 0, NULL},
+                                    {"extent", NULL, gauge_extent, 0, NULL}};
   bool                    found = i < (int)(sizeof rows / sizeof *rows);
   if (found) *row = rows[i];
   return found;
@@ -233,8 +249,8 @@ static bool gauge_row(int i, struct row *row)
 static const struct choice  gauge_choice = {"kind", NULL, "kind of gauge: " GAUGE_WORDS, gauge_row, AT(gauge, kind), 0,
                                             NULL,   NULL};
 static const struct entry   gauge_entries[] = {{"region", ENTRY_VALUE, &value_shape, NULL, AT(gauge, region), 0,
-                                                "everywhere", NULL, "integral|mean", "-", "region that is summed over",
-                                                false},
+                                                "everywhere", NULL, "integral|mean|extent", "-",
+                                                "region that is summed over, or whose points count", false},
                                                ENTRY_END};
 static const struct section gauge_section = {.meaning = "number sampled over time",
                                              .size = sizeof(struct gauge),
@@ -260,6 +276,8 @@ static const struct section reference_section = {
 static const struct param metric_params[] = {
     {"measure", PARAM_CHOICE, AT(metric, measure), "-", 0, 0, NULL, MEASURE_WORDS, "how the difference is measured"},
     {"field", PARAM_TEXT, AT(metric, field), "-", 0, 0, "", NULL, "output field with component, at the time \"at\""},
+    {"over", PARAM_TEXT, AT(metric, over), "-", 0, 0, "", NULL,
+     "gauge whose number at the same time, or at \"to\", the result is divided by"},
     {"gauge", PARAM_TEXT, AT(metric, gauge), "-", 0, 0, "", NULL, "gauge, over the time \"from\" to \"to\""},
     {"reference", PARAM_TEXT, AT(metric, reference), "-", 0, 0, "", NULL,
      "\"name.quantity\" of a reference; empty: \"expected\""},
@@ -271,6 +289,8 @@ static const struct param metric_params[] = {
     {"scale", PARAM_NUMBER, AT(metric, scale), "SI", 0, 1e300, "0", NULL,
      "result is divided by it; 0: by the reference's own scale"},
     {"offset", PARAM_NUMBER, AT(metric, offset), "SI", -1e300, 1e300, "0", NULL, "added to the gauge before comparing"},
+    {"share", PARAM_NUMBER, AT(metric, share), "-", 0, 1, "0.95", NULL,
+     "reach: of the way from the first to the last sample in the span"},
     PARAM_END};
 static const struct entry metric_entries[] = {
     VALUE("time", time_unit, metric, scaled_time, "seconds", "-",

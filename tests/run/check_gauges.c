@@ -174,6 +174,71 @@ START_TEST(regions)
 }
 END_TEST
 
+/* solid fills x -0.2 ... 1.8, y 0.1 ... 0.4 by points at a quarter of a cell */
+START_TEST(extents)
+{
+  struct fake_run r;
+  struct gauge    g = gauge_of("g", GAUGE_EXTENT, "x_max");
+  fake_create(2, &r);
+  g.region = everywhere;
+  NEAR(sample(&r, &g), 1.775, 1e-12);
+  snprintf(g.of, sizeof g.of, "y_max");
+  NEAR(sample(&r, &g), 0.375, 1e-12);
+  g.region = four_cells;
+  NEAR(sample(&r, &g), 0.275, 1e-12);
+  snprintf(g.of, sizeof g.of, "x_min");
+  NEAR(sample(&r, &g), -0.075, 1e-12);
+  snprintf(g.on, sizeof g.on, "water");
+  g.region = everywhere;
+  snprintf(g.of, sizeof g.of, "y_max");
+  NEAR(sample(&r, &g), 0.575, 1e-12);
+  fake_destroy(&r);
+}
+END_TEST
+
+/* the right part is cut off and a grain flies above it; the larger part counts */
+START_TEST(extent_of_what_hangs_together)
+{
+  struct fake_run r;
+  struct gauge    g = gauge_of("g", GAUGE_EXTENT, "x_max");
+  fake_create(2, &r);
+  for (long p = 0; p < r.sim.points[SET_SOLID]->n; p++) {
+    double *x = &r.state.x_p[2 * p];
+    if (x[0] > 1 && x[0] < 1.1) x[0] -= 0.1;                 /* an empty column of cells */
+    if (x[0] > 1.7 && x[1] > 0.35) x[0] = 1.75, x[1] = 0.55; /* with one empty cell below */
+  }
+  g.region = everywhere;
+  NEAR(sample(&r, &g), 1.775, 1e-12);
+  g.connected = true;
+  NEAR(sample(&r, &g), 0.975, 1e-12);
+  snprintf(g.of, sizeof g.of, "y_max");
+  NEAR(sample(&r, &g), 0.375, 1e-12);
+  g.connected = false;
+  NEAR(sample(&r, &g), 0.55, 1e-12);
+  fake_destroy(&r);
+}
+END_TEST
+
+START_TEST(one_gauge_minus_another)
+{
+  struct fake_run r;
+  struct gauge    two[2] = {gauge_of("b", GAUGE_POINT, "P"), gauge_of("a", GAUGE_POINT, "P")};
+  struct gauges  *g;
+  fake_create(2, &r);
+  two[0].x[1] = two[1].x[1] = 0.3;
+  two[0].x[0] = 0.5;
+  snprintf(two[0].minus, sizeof two[0].minus, "a");
+  r.scene.n_gauges = 2;
+  r.scene.gauges = two;
+  fake_ok(gauges_create(&r.sim, r.folder, ranges, &g));
+  fake_ok(gauges_sample(g, &r.sim));
+  NEAR(series_end(g, "b"), 5, 1e-12);
+  NEAR(series_end(g, "a"), linear((double[]){0, 0.3, 0}), 1e-12);
+  gauges_destroy(&g);
+  fake_destroy(&r);
+}
+END_TEST
+
 START_TEST(markers_and_ledger)
 {
   struct fake_run r;
@@ -189,6 +254,10 @@ START_TEST(markers_and_ledger)
   NEAR(sample(&r, &top), -0.2, 1e-15);
   ck_assert_double_eq(sample(&r, &tip), 3.5);
   ck_assert_double_eq(sample(&r, &e), 42);
+  snprintf(e.of, sizeof e.of, "released");
+  r.sim.ledger_start.v[LEDGER_potential] = 5;
+  r.sim.ledger.v[LEDGER_potential] = 2;
+  ck_assert_double_eq(sample(&r, &e), 3);
   fake_destroy(&r);
 }
 END_TEST
@@ -312,6 +381,9 @@ int main(void)
   tcase_add_test(tests, blocks_hide_no_point);
   tcase_add_test(tests, lines);
   tcase_add_test(tests, regions);
+  tcase_add_test(tests, extents);
+  tcase_add_test(tests, extent_of_what_hangs_together);
+  tcase_add_test(tests, one_gauge_minus_another);
   tcase_add_test(tests, markers_and_ledger);
   tcase_add_test(tests, file_and_resume);
   tcase_add_test(tests, more_samples_than_announced);

@@ -182,6 +182,28 @@ START_TEST(roughness)
 }
 END_TEST
 
+/* A linear field does not scatter; every second column of points off by 2 a: a */
+START_TEST(scatter)
+{
+  for (int dim = 2; dim <= 3; dim++) {
+    struct fake_run r;
+    fake_create(dim, &r);
+    struct metric m = metric_of("m", MEASURE_SCATTER, "stress_yy", "");
+    for (long p = 0; p < r.sim.points[SET_SOLID]->n; p++) { /* from three rows of cells to the four of a window */
+      double *x = &r.state.x_p[p * dim], place[3] = {0};
+      x[1] = 0.1 + (x[1] - 0.1) * 4 / 3;
+      memcpy(place, x, (size_t)dim * sizeof *x);
+      r.state.stress_p[6 * p + 1] = linear(place);
+    }
+    ck_assert_double_eq_tol(evaluate_field(&r, &m), 0, 1e-11);
+    for (long p = 0; p < r.sim.points[SET_SOLID]->n; p++)
+      r.state.stress_p[6 * p + 1] += (long)floor((r.state.x_p[p * dim] + 0.2) / 0.05) % 2 ? 0.25 : -0.25;
+    ck_assert_double_eq_tol(evaluate_field(&r, &m), 0.25, 1e-11);
+    fake_destroy(&r);
+  }
+}
+END_TEST
+
 static void oscillate(struct sim *sim, double t)
 {
   sim->ledger.v[LEDGER_elastic] = 4 + 3 * t;
@@ -201,11 +223,12 @@ START_TEST(gauges_over_time)
   struct fake_run     r;
   struct gauge        gauges[3] = {ledger_gauge("line", "elastic"), ledger_gauge("wave", "kinetic_solid"),
                                    ledger_gauge("sum", "energy")};
-  struct metric       m[9];
-  struct metric_entry e[9];
+  struct metric       m[11];
+  struct metric_entry e[11];
   double              times[SAMPLES];
   /* at t = 0.25 the line is 4.75, the wave 2 + exp(-0.375) sin(3 pi) = 2; at t = 1 the line is 7 */
-  const double wanted[9] = {0.5, 3, 0.25, 1 / 2.125, 1.5 / 4.75, 0, 0, 7 / 4.75 - 1, (4.75 + 2 - 1) / 2};
+  const double wanted[11] = {
+      0.5, 3, 0.25, 1 / 2.125, 1.5 / 4.75, 0, 0, 7 / 4.75 - 1, (4.75 + 2 - 1) / 2, 0.25 + 0.95 * 0.75, 4.75 / 6.75};
   sample_times(times);
   fake_create(2, &r);
   m[0] = metric_of("max", MEASURE_MAX, "", "line"), expect(&m[0], "4.5 + 3*t"), m[0].from = 0.2;
@@ -217,9 +240,12 @@ START_TEST(gauges_over_time)
   m[6] = metric_of("decay", MEASURE_DECAY, "", "wave"), expect(&m[6], "1.5");
   m[7] = metric_of("drift", MEASURE_DRIFT, "", "line"), m[7].from = 0.25;
   m[8] = metric_of("energy", MEASURE_VALUE, "", "sum"), expect(&m[8], "1"), m[8].at = 0.25, m[8].scale = 2;
-  r.scene.gauges = gauges, r.scene.n_gauges = 3, r.scene.metrics = m, r.scene.n_metrics = 9;
-  ck_assert_int_eq(evaluate(&r, SAMPLES, times, oscillate, NULL, e), 9);
-  for (int i = 0; i < 9; i++) {
+  m[9] = metric_of("reach", MEASURE_REACH, "", "line"), m[9].from = 0.25, m[9].share = 0.95;
+  m[10] = metric_of("over", MEASURE_VALUE, "", "line"), m[10].at = 0.25;
+  snprintf(m[10].over, sizeof m[10].over, "sum");
+  r.scene.gauges = gauges, r.scene.n_gauges = 3, r.scene.metrics = m, r.scene.n_metrics = 11;
+  ck_assert_int_eq(evaluate(&r, SAMPLES, times, oscillate, NULL, e), 11);
+  for (int i = 0; i < 11; i++) {
     ck_assert_msg(fabs(e[i].value - wanted[i]) < 1e-6, "metric %d: %.10g, wanted %.10g", i, e[i].value, wanted[i]);
     ck_assert(e[i].pass && !e[i].has_limit);
     function_destroy(&m[i].expected);
@@ -368,6 +394,7 @@ int main(void)
   tcase_add_test(tests, fields_of_points);
   tcase_add_test(tests, dry_cells_do_not_count);
   tcase_add_test(tests, roughness);
+  tcase_add_test(tests, scatter);
   tcase_add_test(tests, gauges_over_time);
   tcase_add_test(tests, references_give_scale_and_time);
   tcase_add_test(tests, an_early_end);
