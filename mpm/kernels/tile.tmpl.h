@@ -1,0 +1,158 @@
+/* A tile of nodes, the stencil of a point in it, and what one point does to one scalar of its nodes. The tile keeps a
+ * row of nodes along x for every scalar, so that a row of a stencil is one vector: sums over the nodes of a point run
+ * along z, then y, and last over the lanes; what a point gives is built the other way round. theory 3.1 */
+#include "mpm/kernels/basis.h"
+
+#if DIM == 2
+enum { EDGE = BLOCK_2D + 2 * BLOCK_MARGIN + 3, EDGE_Z = 1, N1_Z = 1 };
+#else
+enum { EDGE = BLOCK_3D + 2 * BLOCK_MARGIN + 3, EDGE_Z = EDGE, N1_Z = N1 };
+#endif
+/* rows are padded: four nodes from any on lie within them. LINE: from a row to the next along y */
+enum { PITCH = EDGE + ROW_NODES - 1, LINE = LANES * PITCH };
+
+struct tile {
+  double at[EDGE_Z][EDGE][LANES][PITCH]; /* [k][j][scalar][i] */
+  int    first[3], count[3];             /* lower node; nodes in use: a block at the border of the grid needs fewer */
+};
+
+/* first node, and for up to four nodes along every axis: weights, weights times distance (m), derivatives (1/m) */
+struct stencil {
+  int  first[3];
+  bool folded; /* a wall has changed the weights, and with them their second moment */
+  ROW  w[3], wr[3], d[3];
+};
+
+/* weights or derivatives where a node beyond a wall is the linear extrapolation of the two inside: q_-1 = 2 q_0 - q_1
+ */
+static inline ROW fold_ghost(ROW w, int ghost, int inwards)
+{
+  ROW change = {0};
+  change[ghost] = change[ghost + 2 * inwards] = -1;
+  change[ghost + inwards] = 2;
+  return w + w[ghost] * change;
+}
+
+/* modified walls along an axis, T section 3.2, its four types; whether one is near */
+static inline bool fold_axis(const struct kernel_grid *kg, int axis, int first, ROW *w, ROW *d)
+{
+  int  beyond = kg->g.n[axis] + 1 - first; /* place of the upper wall's ghost in the stencil */
+  bool low = kg->modified[2 * axis] && first == -1;
+  bool high =
+      kg->modified[2 * axis + 1] && beyond > 1 && beyond < N1; /* the last; on the wall itself the last but one */
+  if (low) *w = fold_ghost(*w, 0, 1), *d = fold_ghost(*d, 0, 1);
+  if (high) *w = fold_ghost(*w, beyond, -1), *d = fold_ghost(*d, beyond, -1);
+  return low || high;
+}
+
+static inline void stencil_at(const struct kernel_grid *kg, const double *x, struct stencil *s)
+{
+  double h = kg->g.h, inverse_h = kg->inverse_h;
+  s->folded = false;
+  for (int a = 0; a < DIM; a++) {
+    double position = (x[a] - kg->g.min[a]) * inverse_h;
+    ROW    w, d;
+    s->first[a] = axis_weights(position, kg->half_width[a] * inverse_h, &w, &d);
+    if (N1 > 2) s->folded |= fold_axis(kg, a, s->first[a], &w, &d);
+    s->w[a] = w;
+    s->wr[a] = w * ((s->first[a] - position) * h + h * (ROW){0, 1, 2, 3});
+    s->d[a] = d * inverse_h;
+  }
+#if DIM == 2
+  s->first[2] = 0;
+  s->w[2] = (ROW){1, 0, 0, 0};
+  s->wr[2] = s->d[2] = (ROW){0};
+#endif
+}
+
+/* nodes that points of the block can reach, all of them in the grid's ghosts at most */
+static inline void tile_place(struct tile *t, const struct kernel_grid *kg, const struct kernel_run *run)
+{
+  for (int a = 0; a < 3; a++) {
+    t->first[a] = a < DIM ? run->corner[a] - BLOCK_MARGIN - 1 : 0;
+    int last = kg->g.n[a] + 2 - t->first[a];
+    t->count[a] = a >= DIM ? 1 : last + 1 < EDGE ? last + 1 : EDGE;
+  }
+}
+
+/* empties the first n scalars */
+static inline void tile_clear(struct tile *t, int n)
+{
+  for (int k = 0; k < t->count[2]; k++)
+    for (int j = 0; j < t->count[1]; j++) memset(t->at[k][j], 0, (size_t)n * sizeof t->at[k][j][0]);
+}
+
+/* the first scalar at the first node of a stencil; the next scalar stands PITCH further */
+static inline double *tile_at(struct tile *t, const struct stencil *s)
+{
+  return &t->at[s->first[2] - t->first[2]][s->first[1] - t->first[1]][0][s->first[0] - t->first[0]];
+}
+
+/* for every row of the tile: node = index in the grid of its first node, row = its scalars, [LANES][PITCH] */
+#define FOR_TILE_ROWS(t, g, node, row)                                                                                 \
+  for (int k_ = 0; k_ < (t)->count[2]; k_++)                                                                           \
+    for (int j_ = 0; j_ < (t)->count[1]; j_++)                                                                         \
+      for (long node = grid_at(g, (t)->first[0], (t)->first[1] + j_, (t)->first[2] + k_), once_ = 1; once_; once_ = 0) \
+        for (double(*row)[PITCH] = (t)->at[k_][j_]; once_; once_ = 0)
+
+/* adds to the scalar u of a point's nodes: rows along x that go with the weights of the other axes, and along y and z
+ * with `slant` (wr or d of the stencil) instead of the weight. 2D has no z */
+static inline void tile_add(double *u, const struct stencil *s, const ROW *slant, ROW even, ROW y, ROW z)
+{
+  for (int k = 0; k < N1_Z; k++) {
+    ROW e = s->w[2][k] * even, f = s->w[2][k] * y;
+    if (DIM == 3) e += slant[2][k] * z;
+    for (int j = 0; j < N1; j++) {
+      double *row = u + (k * EDGE + j) * LINE;
+      row_store(row, row_load(row) + s->w[1][j] * e + slant[1][j] * f);
+    }
+  }
+}
+
+/* the same for what has no slant */
+static inline void tile_add_even(double *u, const struct stencil *s, ROW even)
+{
+  for (int k = 0; k < N1_Z; k++) {
+    ROW e = s->w[2][k] * even;
+    for (int j = 0; j < N1; j++) {
+      double *row = u + (k * EDGE + j) * LINE;
+      row_store(row, row_load(row) + s->w[1][j] * e);
+    }
+  }
+}
+
+/* sums of a scalar over y and z, rows along x: with the weights of both axes; with wr or d along one of them instead */
+struct sums {
+  ROW w, ry, dy, rz, dz;
+};
+
+static inline void tile_sum(const double *u, const struct stencil *s, struct sums *sums)
+{
+  struct sums all = {{0}, {0}, {0}, {0}, {0}};
+  for (int k = 0; k < N1_Z; k++) {
+    ROW w = {0}, r = {0}, d = {0};
+    for (int j = 0; j < N1; j++) {
+      ROW row = row_load(u + (k * EDGE + j) * LINE);
+      w += s->w[1][j] * row;
+      r += s->wr[1][j] * row;
+      d += s->d[1][j] * row;
+    }
+    all.w = DIM == 2 ? w : all.w + s->w[2][k] * w;
+    all.ry = DIM == 2 ? r : all.ry + s->w[2][k] * r;
+    all.dy = DIM == 2 ? d : all.dy + s->w[2][k] * d;
+    all.rz += s->wr[2][k] * w;
+    all.dz += s->d[2][k] * w;
+  }
+  *sums = all;
+}
+
+static inline ROW tile_sum_even(const double *u, const struct stencil *s)
+{
+  ROW all = {0};
+  for (int k = 0; k < N1_Z; k++) {
+    ROW w = {0};
+    for (int j = 0; j < N1; j++) w += s->w[1][j] * row_load(u + (k * EDGE + j) * LINE);
+    all = DIM == 2 ? w : all + s->w[2][k] * w;
+  }
+  return all;
+}
