@@ -214,36 +214,45 @@ static enum status respond(struct settle *s)
   return OK;
 }
 
-/* J: more than any elastic body that something holds can have: (4 g L/c)^2 of the velocity that sudden weight gives */
-static double falling(const struct settle *s)
+/* s without a peak after which nothing is held: five periods of a bar as long as the grid, of the softest soil */
+static double patience(const struct settle *s)
 {
-  double slowest = INFINITY, length = 0, mass = 0;
+  double slowest = INFINITY, length = 0;
   for (int i = 0; i < s->scene.n_solids; i++) {
     const struct material *m = scene_material(&s->scene, i);
-    if (!m->model->held)
-      slowest = fmin(slowest, m->model->oedometer_modulus(m->model_params) / (m->density * (1 - m->porosity)));
+    if (m->model->held) continue;
+    slowest = fmin(slowest, m->model->oedometer_modulus(m->model_params) / (m->density * (1 - m->porosity)));
   }
   for (int d = 0; d < s->scene.dim; d++) length = fmax(length, s->scene.cells[d] * s->scene.h);
-  for (long p = 0; p < s->m->points->n; p++) mass += s->m->mass_p[p];
-  return 0.5 * mass * 16 * s->g * s->g * length * length / slowest;
+  return 20 * length / sqrt(slowest);
+}
+
+/* the balance of the stresses as they are, from rest */
+static enum status judge(struct settle *s)
+{
+  stop_points(s);
+  TRY(advance(s));
+  s->m->rest.unbalanced = s->unbalanced;
+  s->m->rest.settled = s->unbalanced <= s->scene.numerics.rest_tolerance;
+  return OK;
 }
 
 static enum status relax(struct settle *s)
 {
   struct mpm_rest *rest = &s->m->rest;
-  double           limit = falling(s), last = 0;
-  for (rest->steps = 0; rest->steps < s->scene.numerics.rest_steps && s->kinetic < limit; rest->steps++) {
+  double           waited = 0, last = 0;
+  for (rest->steps = 0; rest->steps < s->scene.numerics.rest_steps && waited < patience(s); rest->steps++) {
     TRY(respond(s));
     TRY(advance(s));
-    if (s->kinetic < last) { /* past a peak: at rest again, and the true balance */
-      stop_points(s);
-      TRY(advance(s));
-      rest->unbalanced = s->unbalanced;
-      if (s->unbalanced <= s->scene.numerics.rest_tolerance) break;
+    waited += s->sim->dt;
+    if (s->kinetic < last) { /* past a peak */
+      TRY(judge(s));
+      if (rest->settled) return OK;
+      waited = 0;
     }
     last = s->kinetic;
   }
-  return OK;
+  return judge(s);
 }
 
 static enum status solve(struct settle *s)
@@ -251,13 +260,11 @@ static enum status solve(struct settle *s)
   struct mpm_rest *rest = &s->m->rest;
   TRY(keep_all(s));
   TRY(gather_lift(s));
-  stop_points(s);
   s->sim->scene = &s->scene;
-  TRY(advance(s));
-  *rest = (struct mpm_rest){.computed = true, .column = s->unbalanced, .unbalanced = s->unbalanced};
-  if (s->unbalanced > s->scene.numerics.rest_tolerance) TRY(relax(s));
-  rest->settled = rest->unbalanced <= s->scene.numerics.rest_tolerance;
-  return OK;
+  TRY(judge(s));
+  rest->computed = true;
+  rest->column = rest->unbalanced;
+  return rest->settled || s->scene.numerics.rest_steps == 0 ? OK : relax(s);
 }
 
 static void destroy(struct settle *s)
@@ -281,7 +288,8 @@ enum status mpm_settle(struct sim *sim, struct mpm *m)
   sim->dt_limit = dt_limit;
   sim->t = t;
   for (int i = VEL; i <= AFFINE; i++) bring_back(&s.kept[i]);
-  m->now = (struct mpm_numbers){0};
+  m->now = (struct mpm_numbers){0}; /* nothing was done yet, and nothing lost */
+  memset(m->run_speed, 0, (size_t)(RUN_SPEEDS * m->points->n_runs) * sizeof(double));
   destroy(&s);
   return status;
 }

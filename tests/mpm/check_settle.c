@@ -184,6 +184,31 @@ START_TEST(threads_do_not_matter)
 }
 END_TEST
 
+/* Steep soil yields to a state that holds, inside its strength and with no history; without cohesion nothing holds it.
+ * Taylor's stability number of 45 degrees and phi 23 is 0.055: 480 Pa hold it at the limit. */
+START_TEST(plastic_slope)
+{
+  static const char *const cohesion[] = {"materials.soil.cohesion=780", "materials.soil.cohesion=240"};
+  const char *const        sets[] = {
+             "materials.soil={\"model\": \"mohr_coulomb\", \"young\": 2.57e6, \"poisson\": 0.33, \"density\": 1682, "
+                    "\"friction_angle_deg\": 23, \"tension_strength\": 0}",
+             cohesion[_i], NULL};
+  struct scene_run run;
+  scene_open_with(SLOPE "}", sets, &run);
+  const struct mpm      *m = mpm_of(run.sim);
+  const struct material *material = scene_material(run.sim->scene, 0);
+  double                 outside = 0;
+  ck_assert(m->rest.settled == (_i == 0));
+  if (_i == 1) ck_assert_double_gt(m->rest.unbalanced, 0.01);
+  ck_assert_double_eq(m->now.plastic, 0);
+  ck_assert_double_eq(largest(m->history_p, m->points->n * run.sim->scene->n_history), 0);
+  for (long p = 0; p < m->points->n; p++)
+    outside = fmax(outside, material->model->yield(material->model_params, m->stress_p + 6 * p, m->history_p));
+  ck_assert_double_lt(outside, 1e-6 * 1682 * g * 0.5);
+  scene_close(&run);
+}
+END_TEST
+
 /* in mid-air */
 START_TEST(nothing_holds_it)
 {
@@ -235,6 +260,7 @@ int main(void)
   tcase_add_test(tcase, velocity_is_kept);
   tcase_add_test(tcase, what_does_not_act);
   tcase_add_test(tcase, threads_do_not_matter);
+  tcase_add_loop_test(tcase, plastic_slope, 0, 2);
   tcase_add_test(tcase, nothing_holds_it);
   tcase_add_test(tcase, level_ground);
   suite_add_tcase(suite, tcase);
