@@ -51,25 +51,26 @@ static void shape(const struct coulomb_flow *f, const struct coulomb_strength *s
   u->A = u->c + u->s / SQRT3 + s->sin_phi * (u->c / 3.0 - u->s / SQRT3);
 }
 
-/* q from A q + P = D (q_t cos(delta) - q) sqrt(1 + (w/q)^2). The left less the right grows with q and is concave, so
- * Newton's method climbs to the root from below. It starts on the larger of two bounds: the root is larger than with 1
- * or with w/q in place of the square root. */
+/* q from A q + P = D (q_t cos(delta) - q) sqrt(1 + (w/q)^2): the root with w = 0, or above it. The left less the right
+ * grows with q and is concave, so Newton's method climbs to the root from below. It starts on the larger of two bounds:
+ * the roots with 1 and with w/q in place of the square root. A lane that is done keeps what it has. */
 static void solve_end(const struct turn *u, const VECTOR *P, const VECTOR *D, const VECTOR *w, VECTOR *end)
 {
-  enum { STEPS = 8 };
-  VECTOR linear = (*D * u->ahead - *P) / (u->A + *D), b = *P + *D * *w, c = *D * *w * u->ahead;
-  VECTOR square = b * b + 4.0 * u->A * c, root, q;
+  enum { STEPS = 20 };
+  VECTOR b = *P + *D * *w, c = *D * *w * u->ahead, square = b * b + 4.0 * u->A * c, root;
+  MASK   open = (MASK)(*w * *D > 0.0);
+  *end = (*D * u->ahead - *P) / (u->A + *D);
+  if (!vector_any(&open)) return;
   vector_sqrt(&square, &root);
   VECTOR blunt = VECTOR_SELECT(b > 0.0, 2.0 * c / (b + root), 0.5 * (root - b) / u->A);
-  MASK   pointed = (MASK)(*w * *D <= 0.0);
-  q = VECTOR_MAX(linear, blunt);
-  for (int i = 0; i < STEPS; i++) {
-    VECTOR ratio = *w / q, stretch = 1.0 + ratio * ratio, rest = u->ahead - q;
+  *end = VECTOR_SELECT(open & (MASK)(blunt > *end), blunt, *end);
+  for (int i = 0; i < STEPS && vector_any(&open); i++) {
+    VECTOR q = *end, ratio = *w / q, stretch = 1.0 + ratio * ratio, rest = u->ahead - q;
     vector_sqrt(&stretch, &root);
-    VECTOR slope = u->A + *D * (root + rest * ratio * ratio / (q * root));
-    q -= (u->A * q + *P - *D * rest * root) / slope;
+    VECTOR change = (*D * rest * root - u->A * q - *P) / (u->A + *D * (root + rest * ratio * ratio / (q * root)));
+    *end = VECTOR_SELECT(open, q + change, q);
+    open &= (MASK)(change > 1e-15 * q);
   }
-  *end = VECTOR_SELECT(pointed, linear, q);
 }
 
 static void turn_evaluate(const struct coulomb_elastic *e, const struct coulomb_strength *s,
@@ -90,35 +91,30 @@ static void turn_evaluate(const struct coulomb_elastic *e, const struct coulomb_
   u->gap = u->aside + (u->ahead - u->end) * u->slope / u->R;
 }
 
-/* The turn is between 0, where the gap is negative, and pi/3 - theta_t, where it is not: regula falsi with the weight
- * of an end that stays halved. A lane that is done keeps what it has. */
+/* The turn is between 0, where the gap is negative, and pi/3 - theta_t, where it is not. It starts with what the gap at
+ * 0 asks for. A lane that is done keeps what it has. */
 static void turn_solve(const struct coulomb_elastic *e, const struct coulomb_strength *s, const struct coulomb_flow *f,
                        struct turn *u)
 {
-  enum { STEPS = 60 };
-  VECTOR low = VECTOR_ALL(0.0), high, low_gap, high_gap, side = VECTOR_ALL(0.0);
-  high = (SQRT3 * u->cosine - u->sine) / (2.0 + u->cosine + SQRT3 * u->sine); /* tan((pi/3 - theta_t)/2) */
-  turn_evaluate(e, s, f, &high, u);
-  high_gap = VECTOR_MAX(u->gap, low);
-  turn_evaluate(e, s, f, &low, u);
-  low_gap = u->gap;
-  for (int i = 0; i < STEPS; i++) {
+  enum { STEPS = 80 };
+  struct search search;
+  VECTOR        zero = VECTOR_ALL(0.0);
+  turn_evaluate(e, s, f, &zero, u);
+  MASK open = (MASK)(VECTOR_ABS(u->gap) > 1e-13 * u->q);
+  search.high = (SQRT3 * u->cosine - u->sine) / (2.0 + u->cosine + SQRT3 * u->sine); /* tan((pi/3 - theta_t)/2) */
+  search.low = search.last = zero;
+  search.last_gap = u->gap;
+  search.at = -0.5 * u->gap / u->q;
+  search.at = VECTOR_SELECT(search.at < search.high, search.at, 0.5 * search.high);
+  for (int i = 0; i < STEPS && vector_any(&open); i++) {
     struct turn next = *u;
-    MASK        open = (MASK)(VECTOR_ABS(u->gap) > 1e-13 * u->q);
-    if (!vector_any(&open)) return;
-    VECTOR half = (low * high_gap - high * low_gap) / (high_gap - low_gap);
-    turn_evaluate(e, s, f, &half, &next);
-    MASK below = (MASK)(next.gap < 0.0);
-    low = VECTOR_SELECT(below, half, low);
-    high = VECTOR_SELECT(below, high, half);
-    high_gap = VECTOR_SELECT(below, VECTOR_SELECT(side < 0.0, 0.5 * high_gap, high_gap), next.gap);
-    low_gap = VECTOR_SELECT(below, next.gap, VECTOR_SELECT(side > 0.0, 0.5 * low_gap, low_gap));
-    side = VECTOR_SELECT(below, VECTOR_ALL(-1.0), VECTOR_ALL(1.0));
+    turn_evaluate(e, s, f, &search.at, &next);
     u->c = VECTOR_SELECT(open, next.c, u->c);
     u->s = VECTOR_SELECT(open, next.s, u->s);
     u->end = VECTOR_SELECT(open, next.end, u->end);
     u->end_mean = VECTOR_SELECT(open, next.end_mean, u->end_mean);
-    u->gap = VECTOR_SELECT(open, next.gap, u->gap);
+    open &= (MASK)(VECTOR_ABS(next.gap) > 1e-13 * u->q);
+    search_next(&search, &next.gap);
   }
 }
 

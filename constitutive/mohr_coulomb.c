@@ -18,6 +18,7 @@ struct mohr_coulomb {
 };
 
 #define SQRT3 1.73205080756887729353 /* plastic shear strain over plastic_strain */
+#define SQRT2 1.41421356237309504880
 #define AT(member) offsetof(struct mohr_coulomb, member)
 static const struct param params[] = {
     ISOTROPIC_PARAMS(struct mohr_coulomb, 0.0),
@@ -57,6 +58,8 @@ static const char *check(const void *prm)
     return "residual_friction_angle_deg is above friction_angle_deg; choose less, the soil softens only";
   if (!isinf(m->residual_cohesion) && m->residual_cohesion > m->cohesion)
     return "residual_cohesion is above cohesion; choose less, the soil softens only";
+  if (!isinf(m->residual_dilation) && m->residual_dilation > (isinf(m->dilation) ? 0.0 : m->dilation))
+    return "residual_dilation_angle_deg is above dilation_angle_deg; choose less, the soil softens only";
   if (m->softening_end < m->softening_start + 1e-6)
     return "softening_end is not above softening_start; choose at least 1e-6 more";
   if (!isinf(m->roundness) && m->roundness > 1.0) return "flow_roundness is above 1; choose 0.51 to 1";
@@ -69,7 +72,7 @@ struct soil {
   struct coulomb_flow    flow;
   double                 phi, cohesion, psi, phi_loss, cohesion_loss, psi_loss;
   double                 start, slope; /* of softening: the share that is lost is slope (plastic_strain - start) */
-  double                 tension, sin_residual, sin_most;
+  double                 tension, sin_phi, cos_phi, sin_residual, cos_gain, sin_most; /* sin_most: of psi */
   bool                   softens, rowe;
 };
 
@@ -77,9 +80,9 @@ static double radians(double degrees) { return degrees * (M_PI / 180.0); }
 
 static void read_flow(const struct mohr_coulomb *m, struct soil *soil)
 {
-  double sine = sin(soil->phi), round = isinf(m->roundness) ? (3.0 - sine) / (3.0 + sine) : fmin(m->roundness, 1.0);
+  double sine = soil->sin_phi, round = isinf(m->roundness) ? (3.0 - sine) / (3.0 + sine) : fmin(m->roundness, 1.0);
   soil->flow.roundness = m->flow == FLOW_MENETREY_WILLAM ? round : 0.0;
-  soil->flow.meridian = (3.0 - sine) / (6.0 * cos(soil->phi));
+  soil->flow.meridian = (3.0 - sine) / (6.0 * soil->cos_phi);
   soil->flow.blunt = m->eccentricity * m->cohesion;
 }
 
@@ -101,149 +104,178 @@ static void read_soil(const void *prm, struct soil *soil)
   soil->slope = soil->softens ? SQRT3 / (m->softening_end - m->softening_start) : 0.0;
   soil->tension = m->tension;
   soil->rowe = m->dilatancy == ROWE;
+  soil->sin_phi = sin(soil->phi);
+  soil->cos_phi = cos(soil->phi);
   soil->sin_residual = sin(residual);
-  soil->sin_most = sin(radians(fmin(m->dilation, m->friction)));
+  soil->cos_gain = cos(residual) - soil->cos_phi;
+  soil->sin_most = soil->rowe ? sin(radians(fmin(m->dilation, m->friction))) : sin(soil->psi);
   read_flow(m, soil);
 }
 
-/* Taylor's series; 1e-17 up to 60 degrees */
+/* Taylor's series, to 2e-17 up to 60 degrees */
 static void sine(const VECTOR *angle, VECTOR *sine)
 {
-  static const double under[] = {20 * 21, 18 * 19, 16 * 17, 14 * 15, 12 * 13, 10 * 11, 8 * 9, 6 * 7, 4 * 5, 2 * 3};
+  static const double under[] = {16 * 17, 14 * 15, 12 * 13, 10 * 11, 8 * 9, 6 * 7, 4 * 5, 2 * 3};
   VECTOR              square = *angle * *angle, sum = VECTOR_ALL(1.0);
-  for (int i = 0; i < 10; i++) sum = 1.0 - square * sum * (1.0 / under[i]);
+  for (int i = 0; i < 8; i++) sum = 1.0 - square * sum * (1.0 / under[i]);
   *sine = *angle * sum;
+}
+
+/* The share of the losses that a plastic strain has brought. */
+static void lost_at(const struct soil *soil, const VECTOR *strain, VECTOR *lost)
+{
+  VECTOR share = (*strain - soil->start) * soil->slope;
+  share = VECTOR_MAX(share, VECTOR_ALL(0.0));
+  *lost = VECTOR_MIN(share, VECTOR_ALL(1.0));
+}
+
+/* sin(psi) of a share lost, at most sin(phi) */
+static void dilatancy_at(const struct soil *soil, const VECTOR *lost, struct coulomb_strength *s)
+{
+  VECTOR psi = soil->psi - *lost * soil->psi_loss;
+  if (soil->rowe) { /* M(100) */
+    s->sin_psi = (s->sin_phi - soil->sin_residual) / (1.0 - s->sin_phi * soil->sin_residual);
+    s->sin_psi = VECTOR_MIN(s->sin_psi, VECTOR_ALL(soil->sin_most));
+    s->sin_psi = VECTOR_MAX(s->sin_psi, VECTOR_ALL(0.0));
+  } else if (soil->psi_loss > 0.0) {
+    sine(&psi, &s->sin_psi);
+  } else {
+    s->sin_psi = VECTOR_ALL(soil->sin_most);
+  }
+  s->sin_psi = VECTOR_MIN(s->sin_psi, s->sin_phi);
 }
 
 /* What a plastic strain has left. */
 static void strength_at(const struct soil *soil, const VECTOR *strain, struct coulomb_strength *s)
 {
-  VECTOR zero = VECTOR_ALL(0.0), one = VECTOR_ALL(1.0), lost = (*strain - soil->start) * soil->slope, angle, square,
-         cosine;
-  lost = VECTOR_MAX(lost, zero);
-  lost = VECTOR_MIN(lost, one);
-  angle = soil->phi - lost * soil->phi_loss;
-  sine(&angle, &s->sin_phi);
+  VECTOR lost, phi, square, cosine;
+  lost_at(soil, strain, &lost);
+  phi = soil->phi - lost * soil->phi_loss;
+  sine(&phi, &s->sin_phi);
   square = 1.0 - s->sin_phi * s->sin_phi;
   vector_sqrt(&square, &cosine);
   s->cohesive = 2.0 * (soil->cohesion - lost * soil->cohesion_loss) * cosine;
-  s->tip = VECTOR_SELECT(s->sin_phi > 0.0, 0.5 * s->cohesive / s->sin_phi, zero + INFINITY);
-  s->tension = VECTOR_MIN(s->tip, zero + soil->tension);
-  angle = soil->psi - lost * soil->psi_loss;
-  sine(&angle, &s->sin_psi);
-  if (soil->rowe) { /* M(100) */
-    s->sin_psi = (s->sin_phi - soil->sin_residual) / (1.0 - s->sin_phi * soil->sin_residual);
-    s->sin_psi = VECTOR_MIN(s->sin_psi, zero + soil->sin_most);
-    s->sin_psi = VECTOR_MAX(s->sin_psi, zero);
-  }
-  s->sin_psi = VECTOR_MIN(s->sin_psi, s->sin_phi);
+  s->tip = VECTOR_SELECT(s->sin_phi > 0.0, 0.5 * s->cohesive / s->sin_phi, VECTOR_ALL(INFINITY));
+  s->tension = VECTOR_MIN(s->tip, VECTOR_ALL(soil->tension));
+  dilatancy_at(soil, &lost, s);
+}
+
+/* Bounds of what a plastic strain has left, at less cost: sine and cosine are above their chords. No tension. */
+static void least_strength_at(const struct soil *soil, const VECTOR *strain, struct coulomb_strength *s)
+{
+  VECTOR lost;
+  lost_at(soil, strain, &lost);
+  s->sin_phi = soil->sin_phi - lost * (soil->sin_phi - soil->sin_residual);
+  s->cohesive = 2.0 * (soil->cohesion - lost * soil->cohesion_loss) * (soil->cos_phi + lost * soil->cos_gain);
+  s->tension = VECTOR_ALL(0.0);
 }
 
 /* Lanes that may be outside: the others are below the smooth cone that touches Mohr and Coulomb's planes from inside,
  * sqrt(J2) sqrt(1 + sin^2(phi)/3) + p sin(phi) = c cos(phi), and have no principal stress above the cut-off. */
-static void suspect(const struct coulomb_strength *s, const VECTOR stress[6], MASK *outside)
+static void suspect(const struct soil *soil, const struct coulomb_strength *s, const VECTOR S[6], MASK *outside)
 {
-  const VECTOR *S = stress;
-  VECTOR        mean = (S[XX] + S[YY] + S[ZZ]) / 3.0, a = S[XX] - S[YY], b = S[YY] - S[ZZ], c = S[ZZ] - S[XX];
-  VECTOR        J2 = (a * a + b * b + c * c) / 6.0 + (S[XY] * S[XY] + S[YZ] * S[YZ] + S[XZ] * S[XZ]);
-  VECTOR        bears = 0.5 * s->cohesive - mean * s->sin_phi, room = s->tension - mean;
-  *outside = (MASK)(J2 * (1.0 + s->sin_phi * s->sin_phi / 3.0) > bears * bears) | (MASK)(bears < 0.0) |
-             (MASK)(4.0 / 3.0 * J2 > room * room) | (MASK)(room < 0.0);
+  double widest = 1.0 + soil->sin_phi * soil->sin_phi / 3.0;
+  VECTOR mean = (S[XX] + S[YY] + S[ZZ]) * (1.0 / 3.0), a = S[XX] - S[YY], b = S[YY] - S[ZZ], c = S[ZZ] - S[XX];
+  VECTOR J2 = (a * a + b * b + c * c) * (1.0 / 6.0) + (S[XY] * S[XY] + S[YZ] * S[YZ] + S[XZ] * S[XZ]);
+  VECTOR bears = 0.5 * s->cohesive - mean * s->sin_phi, room = s->tension - mean;
+  *outside = (MASK)(J2 * widest > bears * bears) | (MASK)(bears < 0.0) | (MASK)(4.0 / 3.0 * J2 > room * room) |
+             (MASK)(room < 0.0);
 }
 
-/* One return of a group and what it leaves behind. */
+/* One return of a group: Pa, and sqrt(2/3 e:e) of the deviator e of its plastic strain. */
 struct step {
-  VECTOR trial[3], value[3];      /* Pa */
-  VECTOR strain[3], volume, slip; /* plastic of the step: deviator e, volume, sqrt(2/3 e:e) */
+  VECTOR trial[3], value[3], slip;
 };
 
-static void plastic_strain(const struct coulomb_elastic *e, struct step *step)
+static void step_end(const struct soil *soil, const struct coulomb_strength *s, struct step *step)
 {
-  VECTOR square = VECTOR_ALL(0.0), mean = square;
-  for (int k = 0; k < 3; k++) mean += (step->trial[k] - step->value[k]) / 3.0;
-  for (int k = 0; k < 3; k++) {
-    step->strain[k] = (step->trial[k] - step->value[k] - mean) / (2.0 * e->shear);
-    square += 2.0 / 3.0 * step->strain[k] * step->strain[k];
-  }
-  step->volume = mean / e->bulk;
+  coulomb_return(&soil->elastic, s, &soil->flow, step->trial, step->value);
+  VECTOR a = step->trial[0] - step->value[0], b = step->trial[1] - step->value[1], c = step->trial[2] - step->value[2];
+  VECTOR square = (a - b) * (a - b) + (b - c) * (b - c) + (c - a) * (c - a);
   vector_sqrt(&square, &step->slip);
+  step->slip *= SQRT2 / 6.0 / soil->elastic.shear;
 }
 
-/* with the strength that a plastic strain has left */
-static void step_at(const struct soil *soil, const VECTOR *strain, struct step *step)
-{
-  struct coulomb_strength s;
-  strength_at(soil, strain, &s);
-  coulomb_return(&soil->elastic, &s, &soil->flow, step->trial, step->value);
-  plastic_strain(&soil->elastic, step);
-}
-
-static void keep(const MASK *mask, const struct step *from, struct step *to)
-{
-  for (int k = 0; k < 3; k++) to->value[k] = VECTOR_SELECT(*mask, from->value[k], to->value[k]);
-  for (int k = 0; k < 3; k++) to->strain[k] = VECTOR_SELECT(*mask, from->strain[k], to->strain[k]);
-  to->volume = VECTOR_SELECT(*mask, from->volume, to->volume);
-  to->slip = VECTOR_SELECT(*mask, from->slip, to->slip);
-}
-
-/* Finds the plastic strain at the end, x = start + slip(x): secants, halving where they leave the bracket. Its
- * upper end: no return makes the deviator larger. A lane that is done keeps what it has: x and the step made with it,
- * so that the stress is on the surface of that x exactly. */
-static void soften(const struct soil *soil, const MASK *yields, VECTOR *strain, struct step *step)
+/* Finds the plastic strain at the end, x = start + slip(x), above `start` and below what takes the whole deviator. A
+ * lane that is done keeps x and the step made with it: its stress is on the surface of that x exactly. */
+static void soften(const struct soil *soil, const struct coulomb_strength *now, const MASK *yields, VECTOR *strain,
+                   struct step *step)
 {
   enum { STEPS = 80 };
-  const VECTOR *t = step->trial;
-  VECTOR        start = *strain, low = start, last = start, x, high, size, last_gap;
+  VECTOR        start = *strain;
   MASK          open = *yields;
-  step_at(soil, strain, step);
-  size = (t[2] - t[0]) * (2.0 / soil->elastic.shear);
-  high = start + size;
-  last_gap = step->slip;
-  x = start + last_gap;
-  *strain = VECTOR_SELECT(open, x, *strain);
+  struct step   next = *step;
+  struct search search = {.low = start, .last = start};
+  step_end(soil, now, step);
+  search.high = start + (step->trial[2] - step->trial[0]) / soil->elastic.shear;
+  search.last_gap = -step->slip;
+  search.at = start + step->slip;
   for (int i = 0; i < STEPS && vector_any(&open); i++) {
-    struct step next = *step;
-    step_at(soil, &x, &next);
-    keep(&open, &next, step);
-    *strain = VECTOR_SELECT(open, x, *strain);
-    VECTOR gap = start + next.slip - x;
-    open &= (MASK)(VECTOR_ABS(gap) > 1e-13 * (start + next.slip));
-    low = VECTOR_SELECT(gap > 0.0, x, low);
-    high = VECTOR_SELECT(gap > 0.0, high, x);
-    VECTOR secant = x - gap * (x - last) / (gap - last_gap), middle = 0.5 * (low + high);
-    last = x;
-    last_gap = gap;
-    x = VECTOR_SELECT((MASK)(secant > low) & (MASK)(secant < high), secant, middle);
+    struct coulomb_strength s;
+    strength_at(soil, &search.at, &s);
+    step_end(soil, &s, &next);
+    for (int k = 0; k < 3; k++) step->value[k] = VECTOR_SELECT(open, next.value[k], step->value[k]);
+    *strain = VECTOR_SELECT(open, search.at, *strain);
+    VECTOR gap = search.at - start - next.slip;
+    open &= (MASK)(VECTOR_ABS(gap) > 1e-13 * search.at);
+    search_next(&search, &gap);
   }
 }
 
-/* Trial stresses of a group to the surface where they are outside. history, work: of its first point */
-static void yield_group(const struct soil *soil, const struct coulomb_strength *now, const MASK *outside, int m,
-                        VECTOR stress[6], double *history, double *work)
+/* Plastic work: stress times plastic strain, mean and deviator. */
+static void plastic_work(const struct coulomb_elastic *e, const struct step *step, VECTOR *work)
+{
+  const VECTOR *s = step->value, *t = step->trial;
+  VECTOR        mean = (s[0] + s[1] + s[2]) / 3.0, lost = (t[0] + t[1] + t[2]) / 3.0 - mean;
+  *work = mean * lost / e->bulk;
+  for (int k = 0; k < 3; k++) *work += s[k] * (t[k] - s[k] - lost) * (0.5 / e->shear);
+}
+
+/* Returns the lanes of a group that are outside. strain: its plastic strain (in/out); lost: plastic work, J/m3 */
+static void return_group(const struct soil *soil, const struct coulomb_strength *now, MASK *outside, VECTOR stress[6],
+                         VECTOR *strain, VECTOR *lost)
 {
   struct principal p;
   struct step      step;
-  VECTOR           strain = VECTOR_ALL(0.0), returned[6], done, *value = step.value;
+  VECTOR           returned[6];
   principal_split(stress, &p);
   memcpy(step.trial, p.value, sizeof step.trial);
-  MASK yields = *outside & ((MASK)(COULOMB_YIELD(now, step.trial) > 0.0) | (MASK)(step.trial[2] > now->tension));
-  if (!vector_any(&yields)) return;
-  for (int i = 0; i < m; i++) strain[i] = history[i];
+  *outside &= (MASK)(COULOMB_YIELD(now, step.trial) > 0.0) | (MASK)(step.trial[2] > now->tension);
+  *lost = VECTOR_ALL(0.0);
+  if (!vector_any(outside)) return;
   if (soil->softens) {
-    soften(soil, &yields, &strain, &step);
+    soften(soil, now, outside, strain, &step);
   } else {
-    coulomb_return(&soil->elastic, now, &soil->flow, step.trial, value);
-    plastic_strain(&soil->elastic, &step);
-    strain += step.slip;
+    step_end(soil, now, &step);
+    *strain += step.slip;
   }
-  principal_join(&p, value, returned);
-  for (int k = 0; k < 6; k++) stress[k] = VECTOR_SELECT(yields, returned[k], stress[k]);
-  done = (value[0] + value[1] + value[2]) / 3.0 * step.volume;
-  for (int k = 0; k < 3; k++) done += value[k] * step.strain[k];
+  principal_join(&p, step.value, returned);
+  for (int k = 0; k < 6; k++) stress[k] = VECTOR_SELECT(*outside, returned[k], stress[k]);
+  plastic_work(&soil->elastic, &step, lost);
+}
+
+/* A group after its elastic step. intact: strength before softening; history, work: of its first point */
+static void yield_group(const struct soil *soil, const struct coulomb_strength *intact, int m, VECTOR stress[6],
+                        double *history, double *work)
+{
+  const struct coulomb_strength *now = intact;
+  struct coulomb_strength        left;
+  VECTOR                         strain = VECTOR_ALL(0.0), lost;
+  MASK                           outside;
+  if (soil->softens) {
+    for (int i = 0; i < m; i++) strain[i] = history[i];
+    least_strength_at(soil, &strain, &left);
+    now = &left;
+  }
+  suspect(soil, now, stress, &outside);
+  if (!vector_any(&outside)) return;
+  for (int i = 0; i < m; i++) strain[i] = history[i];
+  if (soil->softens) strength_at(soil, &strain, &left);
+  return_group(soil, now, &outside, stress, &strain, &lost);
   for (int i = 0; i < m; i++) {
-    if (!yields[i]) continue;
+    if (!outside[i]) continue;
     history[i] = strain[i];
-    if (work) work[i] = done[i];
+    if (work) work[i] = lost[i];
   }
 }
 
@@ -251,25 +283,21 @@ static int update(const void *prm, int n, double dt, const double *dF, const dou
                   double *work)
 {
   struct soil             soil;
-  struct coulomb_strength now;
-  VECTOR                  strain = VECTOR_ALL(0.0);
+  struct coulomb_strength intact;
+  VECTOR                  none = VECTOR_ALL(0.0);
   int                     bad = 0;
   (void)dt, (void)F;
   read_soil(prm, &soil);
-  strength_at(&soil, &strain, &now);
+  strength_at(&soil, &none, &intact);
   if (work) memset(work, 0, (size_t)n * sizeof *work);
   for (int p = 0; p < n; p += LANES) {
     struct corotate_group g;
-    MASK                  outside;
     int                   m = corotate_members(n, p);
     bad += corotate_begin(m, &dF[9L * p], &stress[6L * p], &g);
     VECTOR volume = soil.elastic.lambda * (g.strain[XX] + g.strain[YY] + g.strain[ZZ]);
     for (int k = 0; k < 3; k++) g.stress[k] += volume;
     for (int k = 0; k < 6; k++) g.stress[k] += 2.0 * soil.elastic.shear * g.strain[k];
-    for (int i = 0; i < m && soil.softens; i++) strain[i] = history[p + i];
-    if (soil.softens) strength_at(&soil, &strain, &now);
-    suspect(&now, g.stress, &outside);
-    if (vector_any(&outside)) yield_group(&soil, &now, &outside, m, g.stress, &history[p], work ? &work[p] : NULL);
+    yield_group(&soil, &intact, m, g.stress, &history[p], work ? &work[p] : NULL);
     corotate_end(m, &g, &stress[6L * p]);
   }
   return bad;
@@ -322,7 +350,7 @@ static double wave_speed(const void *prm, int n, const double *rb, const double 
   if (!(most > 0.0)) return elastic;
   read_soil(prm, &soil);
   double psi = soil.rowe ? 0.0 : soil.psi - soil.psi_loss;
-  return elastic * sqrt(1.0 + excess(&soil.elastic, sin(soil.phi), sin(psi)) / isotropic_oedometer(prm));
+  return elastic * sqrt(1.0 + excess(&soil.elastic, soil.sin_phi, sin(psi)) / isotropic_oedometer(prm));
 }
 
 static const char *const history_names[] = {"plastic_strain"};

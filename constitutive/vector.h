@@ -26,4 +26,21 @@ static inline int vector_any(const MASK *mask)
   return any != 0;
 }
 
+/* Looks for the root of a growing function in every lane: secants, and halves of the bracket where they leave it. */
+struct search {
+  VECTOR low, high;      /* below and above the root */
+  VECTOR at;             /* where the function is wanted next */
+  VECTOR last, last_gap; /* where it is known from before, and its value there */
+};
+
+static inline void search_next(struct search *s, const VECTOR *gap)
+{
+  VECTOR secant = s->at - *gap * (s->at - s->last) / (*gap - s->last_gap);
+  s->low = VECTOR_SELECT(*gap < 0.0, s->at, s->low);
+  s->high = VECTOR_SELECT(*gap < 0.0, s->high, s->at);
+  s->last = s->at;
+  s->last_gap = *gap;
+  s->at = VECTOR_SELECT((MASK)(secant > s->low) & (MASK)(secant < s->high), secant, 0.5 * (s->low + s->high));
+}
+
 #endif
