@@ -1,0 +1,260 @@
+/* Modified Cam-clay (Roscoe and Burland 1968) in effective stress. With pressure p, q = sqrt(3 J2), specific volume v:
+ *   elastic   v = -kappa ln p,  K = v p/kappa,  G = 3 (1 - 2 nu)/(2 (1 + nu)) K
+ *   ellipse   q^2/M^2 + p (p - pc) <= 0, associated;  hardening  v_plastic = -(lambda - kappa) ln pc
+ * Lines in v over ln p are exact for steps of any size. Below the floor pressure K is that of the floor. theory 1.3.4
+ */
+#include "constitutive/clay.h"
+#include "constitutive/deviator.h"
+
+struct cam_clay {
+  double kappa, lambda, M, friction, poisson, void_ratio, preconsolidation, overconsolidation, floor;
+};
+
+#define AT(member) offsetof(struct cam_clay, member)
+static const struct param params[] = {
+    {"kappa", PARAM_NUMBER, AT(kappa), "-", 1e-5, 1, NULL, NULL, "slope of swelling lines in v over ln p"},
+    {"lambda", PARAM_NUMBER, AT(lambda), "-", 1e-4, 10, NULL, NULL, "slope of the compression line in v over ln p"},
+    {"M", PARAM_NUMBER, AT(M), "-", 0, 3, "0", NULL, "q/p of the critical state; 0: from friction_angle_deg"},
+    {"friction_angle_deg", PARAM_NUMBER, AT(friction), "deg", 0, 60, "0", NULL,
+     "friction angle of the critical state in triaxial compression, M = 6 sin/(3 - sin); 0: M is given"},
+    {"poisson", PARAM_NUMBER, AT(poisson), "-", 0, 0.499, NULL, NULL, "Poisson's ratio of the skeleton"},
+    {"void_ratio", PARAM_NUMBER, AT(void_ratio), "-", 0.01, 50, NULL, NULL,
+     "pore over grain volume at the start: porosity/(1 - porosity)"},
+    {"preconsolidation_pressure", PARAM_NUMBER, AT(preconsolidation), "Pa", 0, 1e12, "0", NULL,
+     "isotropic pressure that the soil has borne before; raised to what the start asks for"},
+    {"overconsolidation_ratio", PARAM_NUMBER, AT(overconsolidation), "-", 1, 1e6, "1", NULL,
+     "length of the ellipse over that of the one through the stress at the start"},
+    {"floor_pressure", PARAM_NUMBER, AT(floor), "Pa", 1e-6, 1e9, "1e3", NULL,
+     "least pressure that stiffness is taken from; half the least length of the ellipse"},
+    PARAM_END,
+};
+
+enum { PLASTIC_STRAIN, PRECONSOLIDATION, SPECIFIC_VOLUME, N_HISTORY };
+static const char *const history_names[N_HISTORY] = {"plastic_strain", "preconsolidation_pressure", "specific_volume"};
+
+static const char *check(const void *prm)
+{
+  const struct cam_clay *m = prm;
+  if (m->lambda <= m->kappa) return "lambda must be above kappa; raise lambda or lower kappa";
+  if (m->M == 0.0 && m->friction == 0.0) return "M and friction_angle_deg are both missing; give one of them";
+  if (m->M > 0.0 && m->friction > 0.0) return "M and friction_angle_deg are both given; remove one of them";
+  return NULL;
+}
+
+static double slope(const struct cam_clay *m)
+{
+  double sine = sin(m->friction * (M_PI / 180.0));
+  return m->M > 0.0 ? m->M : 6.0 * sine / (3.0 - sine);
+}
+
+static struct clay read_clay(const void *prm)
+{
+  const struct cam_clay *m = prm;
+  return (struct clay){.kappa = m->kappa,
+                       .plastic = m->lambda - m->kappa,
+                       .M = slope(m),
+                       .shear = 1.5 * (1.0 - 2.0 * m->poisson) / (1.0 + m->poisson),
+                       .floor = m->floor};
+}
+
+/* (exp(y) - 1)/y, up to an exponent of 300 */
+static void growth(const VECTOR *y, VECTOR *result)
+{
+  enum { TERMS = 10 };
+  const double small = 0.1, most = 300.0;
+  VECTOR       sum = VECTOR_ALL(1.0), size = VECTOR_ABS(*y);
+  MASK         large = (MASK)(size > small);
+  for (int k = TERMS + 1; k >= 2; k--) sum = 1.0 + *y * sum * (1.0 / k);
+  *result = sum;
+  if (!vector_any(&large)) return;
+  for (int i = 0; i < LANES; i++)
+    if (large[i]) (*result)[i] = expm1(fmin(most, (*y)[i])) / (*y)[i];
+}
+
+/* Elastic step of a group. */
+struct elastic {
+  VECTOR p0, p;          /* Pa, before and after */
+  VECTOR change, v;      /* of the specific volume; its mean */
+  VECTOR s[6], e[6], G2; /* deviators of the stress before and of the strain; twice the shear modulus of the step */
+};
+
+/* Pressures above the floor by the exponential, others one by one. */
+static void compress(const struct clay *c, struct elastic *t, VECTOR *secant)
+{
+  VECTOR y = -t->change / c->kappa, mean;
+  growth(&y, &mean);
+  *secant = t->p0 * mean;
+  t->p = t->p0 + *secant * y;
+  MASK low = (MASK)(t->p0 < c->floor) | (MASK)(t->p < c->floor);
+  if (!vector_any(&low)) return;
+  for (int i = 0; i < LANES; i++) {
+    if (!low[i]) continue;
+    double x0 = clay_measure(c, t->p0[i]), x = x0 + y[i];
+    t->p[i] = clay_pressure(c, x);
+    (*secant)[i] = clay_secant(c, t->p0[i], x0, t->p[i], x);
+  }
+}
+
+/* Adds the elastic stress of the group's strain; answers it in parts. */
+static void strain(const struct clay *c, const VECTOR *v, struct corotate_group *g, struct elastic *t)
+{
+  VECTOR volume = g->strain[XX] + g->strain[YY] + g->strain[ZZ], mean, unused, secant;
+  deviator_split(g->stress, &mean, t->s, &unused);
+  deviator_split(g->strain, &unused, t->e, &secant);
+  growth(&volume, &unused);
+  t->p0 = -mean;
+  t->v = *v * unused;
+  t->change = t->v * volume;
+  compress(c, t, &secant);
+  t->G2 = 2.0 * c->shear / c->kappa * t->v * secant;
+  for (int k = 0; k < 6; k++) g->stress[k] += t->G2 * t->e[k];
+  for (int k = 0; k < 3; k++) g->stress[k] -= t->p - t->p0;
+}
+
+/* Returns lane i. history, work: of that point */
+static void return_point(const struct clay *c, int i, const struct elastic *t, double *history, double *work,
+                         VECTOR stress[6])
+{
+  static const double weight[6] = {1, 1, 1, 2, 2, 2};
+  struct clay_step    step = {.p = t->p0[i], .pc = history[PRECONSOLIDATION], .change = t->change[i], .v = t->v[i]};
+  struct clay_state   end;
+  double              trial[6], square = 0.0;
+  for (int k = 0; k < 6; k++) {
+    step.ss += weight[k] * t->s[k][i] * t->s[k][i];
+    step.se += weight[k] * t->s[k][i] * t->e[k][i];
+    step.ee += weight[k] * t->e[k][i] * t->e[k][i];
+  }
+  clay_return(c, &step, &end);
+  for (int k = 0; k < 6; k++) {
+    trial[k] = t->s[k][i] + 2.0 * end.shear * t->e[k][i];
+    square += weight[k] * trial[k] * trial[k];
+  }
+  double scale = square > 0.0 ? end.q / sqrt(1.5 * square) : 0.0;
+  for (int k = 0; k < 6; k++) stress[k][i] = scale * trial[k] - (k < 3 ? end.p : 0.0);
+  history[PRECONSOLIDATION] = end.pc;
+  history[PLASTIC_STRAIN] += end.plastic;
+  if (work) *work = end.p * end.compression + end.q * end.plastic;
+}
+
+/* Returns what is outside of the ellipse by more than round-off. */
+static void return_group(const struct clay *c, int m, const struct elastic *t, double *history, double *work,
+                         VECTOR stress[6])
+{
+  const double round_off = 1e-14;
+  VECTOR       mean, dev[6], J2, pc, length, least = VECTOR_ALL(2.0 * c->floor);
+  deviator_split(stress, &mean, dev, &J2);
+  group_load(m, N_HISTORY, history, PRECONSOLIDATION, &pc);
+  length = VECTOR_MAX(pc, least);
+  MASK outside = (MASK)(3.0 * J2 / (c->M * c->M) + mean * (mean + length) > round_off * length * length);
+  if (!vector_any(&outside)) return;
+  for (int i = 0; i < m; i++)
+    if (outside[i]) return_point(c, i, t, &history[N_HISTORY * i], work ? &work[i] : NULL, stress);
+}
+
+static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
+                  double *work)
+{
+  struct clay c = read_clay(prm);
+  int         bad = 0;
+  (void)dt, (void)F;
+  if (work) memset(work, 0, (size_t)n * sizeof *work);
+  for (int p = 0; p < n; p += LANES) {
+    struct corotate_group g;
+    struct elastic        t;
+    VECTOR                v;
+    int                   m = corotate_members(n, p);
+    double               *own = &history[(long)N_HISTORY * p];
+    bad += corotate_begin(m, &dF[9L * p], &stress[6L * p], &g);
+    group_load(m, N_HISTORY, own, SPECIFIC_VOLUME, &v);
+    strain(&c, &v, &g, &t);
+    return_group(&c, m, &t, own, work ? &work[p] : NULL, g.stress);
+    v += t.change;
+    group_store(m, N_HISTORY, &v, own, SPECIFIC_VOLUME);
+    corotate_end(m, &g, &stress[6L * p]);
+  }
+  return bad;
+}
+
+/* The ellipse through the start stress, longer by the overconsolidation ratio. Stresses beyond the critical state count
+ * as on it. */
+static void start(const void *prm, int n, const double *stress, double *history)
+{
+  const struct cam_clay *m = prm;
+  struct clay            c = read_clay(prm);
+  for (int i = 0; i < n; i++) {
+    double  mean, q = sqrt(3.0) * deviator_size(&stress[6L * i], &mean), p = fmax(0.0, -mean);
+    double  share = p > 0.0 ? fmin(1.0, q / (c.M * p)) : 0.0, through = p * (1.0 + share * share);
+    double *own = &history[(long)N_HISTORY * i];
+    own[PLASTIC_STRAIN] = 0.0;
+    own[PRECONSOLIDATION] = clay_length(&c, fmax(m->preconsolidation, m->overconsolidation * through));
+    own[SPECIFIC_VOLUME] = 1.0 + m->void_ratio;
+  }
+}
+
+/* Pa, of p and v */
+static double bulk(const struct clay *c, double p, double v) { return v * fmax(p, c->floor) / c->kappa; }
+
+/* As linear elasticity with the present moduli, E_oed = K + 4/3 G. */
+static double wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history)
+{
+  struct clay c = read_clay(prm);
+  double      largest = 0.0, lightest = INFINITY;
+  for (int i = 0; i < n; i++) {
+    double mean, size = deviator_size(&stress[6L * i], &mean);
+    double K = bulk(&c, -mean, history[(long)N_HISTORY * i + SPECIFIC_VOLUME]);
+    largest = fmax(largest, K * (1.0 + 4.0 / 3.0 * c.shear) + size);
+    lightest = fmin(lightest, rb[i]);
+  }
+  return sqrt(largest / lightest);
+}
+
+/* Integral of p over the elastic compression, and q^2/(6 G). */
+static void energy(const void *prm, int n, const double *F, const double *stress, const double *history, double *energy)
+{
+  struct clay c = read_clay(prm);
+  (void)F;
+  for (int i = 0; i < n; i++) {
+    double mean, size = deviator_size(&stress[6L * i], &mean), p = -mean;
+    double v = history[(long)N_HISTORY * i + SPECIFIC_VOLUME], G = c.shear * bulk(&c, p, v);
+    double volume = p > c.floor ? p - 0.5 * c.floor : 0.5 * p * p / c.floor;
+    energy[i] = c.kappa / v * volume + 0.5 * size * size / G;
+  }
+}
+
+static double yield(const void *prm, const double *stress, const double *history)
+{
+  struct clay c = read_clay(prm);
+  double      mean, q = sqrt(3.0) * deviator_size(stress, &mean), length = clay_length(&c, history[PRECONSOLIDATION]);
+  return (q * q / (c.M * c.M) + mean * (mean + length)) / length;
+}
+
+static double oedometer_modulus(const void *prm)
+{
+  struct clay c = read_clay(prm);
+  return bulk(&c, 0.0, 1.0 + ((const struct cam_clay *)prm)->void_ratio) * (1.0 + 4.0 / 3.0 * c.shear);
+}
+
+/* Jaky's 1 - sin(phi) of normally consolidated soil, or elastic */
+static double lateral_ratio(const void *prm)
+{
+  const struct cam_clay *m = prm;
+  double                 M = slope(m);
+  return fmax(m->poisson / (1.0 - m->poisson), 1.0 - 3.0 * M / (6.0 + M));
+}
+
+const struct constitutive_model constitutive_cam_clay = {
+    .name = "cam_clay",
+    .source = "1.3.4",
+    .params = params,
+    .param_size = sizeof(struct cam_clay),
+    .n_history = N_HISTORY,
+    .history = history_names,
+    .check = check,
+    .update = update,
+    .wave_speed = wave_speed,
+    .energy = energy,
+    .start = start,
+    .yield = yield,
+    .oedometer_modulus = oedometer_modulus,
+    .lateral_ratio = lateral_ratio,
+};
