@@ -27,6 +27,9 @@ struct material {
   double                           permeability;   /* m/s, hydraulic conductivity; 0: not given */
   double                           grain_diameter; /* m; 0: not given */
   double                           lateral_ratio;  /* -, lateral over vertical stress at rest; < 0: the law's */
+  double                           heat_capacity;  /* J/(kg K), of the grains; 0: heat is not solved */
+  double                           conductivity;   /* W/(m K), of the grains */
+  double                           work_to_heat;   /* share of plastic work that heats */
 };
 
 struct solid {
@@ -36,6 +39,7 @@ struct solid {
   int             body;                 /* 0 in a scene without contact */
   struct shape    shape;
   struct function velocity[3]; /* m/s at the start */
+  struct function temperature; /* K at the start */
 };
 
 struct fluid {
@@ -61,6 +65,14 @@ struct side_condition {
   int             kind;
   struct function velocity[3]; /* m/s, SIDE_VELOCITY */
   struct function pressure;    /* Pa (gauge), SIDE_PRESSURE */
+};
+
+/* what a side does to the heat of solids that reach it */
+enum heat_kind { HEAT_INSULATED, HEAT_TEMPERATURE, HEAT_FLUX };
+
+struct heat_side {
+  int             kind;
+  struct function value; /* K; or W/m2 into the solid */
 };
 
 /* A traction on a surface that rides on the solid: a flat patch (a box with one axis of zero width) or a 2D arc. */
@@ -191,6 +203,7 @@ struct scene {
   struct metric        *metrics;
   struct fluid          fluid;
   struct side_condition solid_side[SIDES], fluid_side[SIDES];
+  struct heat_side      heat_side[SIDES];
   struct numerics       numerics;
   void                 *module_params[MAX_MODULES]; /* in the order of run/modules.def */
   struct output         output;

@@ -56,7 +56,7 @@ static void place_point(const struct scene *scene, struct mpm *m, long p, const 
   const struct material *material = &scene->materials[solid->material];
   int                    dim = scene->dim;
   double                 volume = mpm_point_volume(scene);
-  m->volume_p[p] = volume;
+  if (m->volume_p) m->volume_p[p] = volume;
   if (m->volume_solid_p) m->volume_solid_p[p] = (1 - material->porosity) * volume;
   if (m->mass_p) m->mass_p[p] = material->density * (1 - material->porosity) * volume;
   for (int d = 0; d < dim; d++) {

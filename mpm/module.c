@@ -1,5 +1,6 @@
 /* The solid as material points: its stages, when each is needed, its fields. Read this first. */
 #include "mpm/create.h"
+#include "mpm/heat.h"
 #include "mpm/settle.h"
 #include "mpm/stages.h"
 
@@ -29,7 +30,10 @@ static const struct param params[] = {
     PARAM_END,
 };
 
-static bool needed(const struct scene *sc) { return mpm_solid_moves(sc) || (sc->n_solids > 0 && sc->fluid.present); }
+static bool needed(const struct scene *sc)
+{
+  return mpm_solid_moves(sc) || (sc->n_solids > 0 && sc->fluid.present) || heat_flows(sc);
+}
 static bool moves_affine(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_transfer_affine(sc); }
 static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && !mpm_transfer_affine(sc); }
 static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
@@ -38,10 +42,15 @@ static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc-
 static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.present; }
 static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
 static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
-static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0; }
 static bool smooth(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->smoothing > 0; }
 static bool smooth_usl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_LAST; }
 static bool smooth_musl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
+static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0 && !heat_solved(sc); }
+static bool working(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0 && heat_solved(sc); }
+static bool rubbing(const struct scene *sc) { return touching(sc) && heat_solved(sc); }
+static bool quiet(const struct scene *sc) { return heat_flows(sc) && !rubbing(sc); }
+static bool fluxed(const struct scene *sc) { return heat_flows(sc) && heat_has_side(sc, HEAT_FLUX); }
+static bool unfluxed(const struct scene *sc) { return heat_flows(sc) && !heat_has_side(sc, HEAT_FLUX); }
 static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
 static bool musl(const struct scene *sc) { return mpm_solid_moves(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
 
@@ -57,10 +66,18 @@ static const struct field fields[] = {
 static const struct stage stages[] = {
     {"mpm.sort_points", SLOT_sort, "x_p", "x_p", "3.1", "only when a solid moves", mpm_solid_moves, mpm_sort_points,
      NULL},
+    {"mpm.clear_heat_source", SLOT_clear, "", "heat_source_nc", "3.8", "only with heat, when bodies are in contact",
+     rubbing, mpm_clear_heat_source, NULL},
     {"mpm.points_to_nodes", SLOT_points_to_nodes, POINT_STATE " affine_p", "mass_nc mom_nc force_nc", "3.1",
      "only when a solid moves, APIC or AFLIP", moves_affine, mpm_points_to_nodes, NULL},
     {"mpm.points_to_nodes_plain", SLOT_points_to_nodes, POINT_STATE, "mass_nc mom_nc force_nc", "3.1",
      "only when a solid moves, PIC or FLIP", moves_plain, mpm_points_to_nodes, NULL},
+    {"mpm.heat_to_nodes", SLOT_points_to_nodes, "x_p mass_p temperature_p", "capacity_nc temperature_nc", "3.8",
+     "only when a material has a heat capacity and heat flows, no side with a flux", unfluxed, mpm_heat_to_nodes, NULL},
+    {"mpm.fill_sides", SLOT_points_to_nodes, "x_p volume_p", "filled_nc conductance_nc", "3.8",
+     "only when a side has a heat flux", fluxed, mpm_fill_sides, NULL},
+    {"mpm.heat_to_nodes_with_flux", SLOT_points_to_nodes, "x_p mass_p temperature_p filled_nc conductance_nc",
+     "capacity_nc slope_nc temperature_nc", "3.8", "only when a side has a heat flux", fluxed, mpm_heat_to_nodes, NULL},
     {"mpm.fold_nodes", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.2",
      "only when a solid moves", mpm_solid_moves, mpm_fold_nodes, NULL},
     {"mpm.load_surfaces", SLOT_fold, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads", loaded,
@@ -79,6 +96,17 @@ static const struct stage stages[] = {
      touching, mpm_join_velocities, NULL},
     {"mpm.smooth_strain", SLOT_nodes, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, usl", smooth_usl,
      mpm_smooth_strain, NULL},
+    {"mpm.conduct_heat", SLOT_nodes, "x_p mass_p temperature_p temperature_nc", "unseen_p heat_flow_p heat_nc", "3.8",
+     "only when a material has a heat capacity and heat flows", heat_flows, mpm_conduct_heat, mpm_heat_dt},
+    {"mpm.heat_sides", SLOT_nodes, "filled_nc heat_nc", "heat_nc", "3.8", "only when a side has a heat flux", fluxed,
+     mpm_heat_sides, NULL},
+    {"mpm.warm_nodes", SLOT_nodes, "heat_nc capacity_nc", "heat_nc warming_nc", "3.8",
+     "only when heat flows, no bodies in contact", quiet, mpm_warm_nodes, NULL},
+    {"mpm.warm_nodes_with_sources", SLOT_nodes, "heat_nc heat_source_nc capacity_nc", "heat_nc warming_nc", "3.8",
+     "only with heat, when bodies are in contact", rubbing, mpm_warm_nodes, NULL},
+    {"mpm.heat_to_points", SLOT_nodes_to_points, "x_p mass_p unseen_p warming_nc temperature_p",
+     "warming_p temperature_p", "3.8", "only when a material has a heat capacity and heat flows", heat_flows,
+     mpm_heat_to_points, NULL},
     {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p",
      "3.1", "only when a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
     {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
@@ -93,8 +121,13 @@ static const struct stage stages[] = {
     {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3",
      "only when a solid moves, no law with history", plain_law, mpm_update_stress, mpm_stress_dt},
     {"mpm.update_stress_and_history", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",
-     "F_p stress_p volume_p history_p", "1.3", "only when a law of the scene has a history", historic,
+     "F_p stress_p volume_p history_p", "1.3", "only when a law of the scene has a history, no heat", historic,
      mpm_update_stress, mpm_stress_dt},
+    {"mpm.update_stress_and_heat", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",
+     "F_p stress_p volume_p history_p heat_p", "1.3", "only when a law of the scene has a history, with heat", working,
+     mpm_update_stress, mpm_stress_dt},
+    {"mpm.heat_by_work", SLOT_stress, "heat_p mass_p volume_p temperature_p", "temperature_p", "3.8",
+     "only when a law of the scene has a history, with heat", working, mpm_heat_by_work, NULL},
 };
 
 static enum status count(const struct scene *scene, long n[], int groups[])
@@ -119,6 +152,7 @@ static enum status create(struct sim *sim, void *state)
   TRY(mpm_create_points(sim, m));
   TRY(mpm_start_stress(sim, m));
   TRY(mpm_create_markers(sim, m));
+  TRY(mpm_create_heat(sim, m));
   TRY(mpm_sort_now(sim, m));
   m->mass_floor = INFINITY;
   for (long p = 0; p < m->points->n && m->mass_p; p++) m->mass_floor = fmin(m->mass_floor, 1e-12 * m->mass_p[p]);
@@ -133,6 +167,7 @@ static void destroy(void *state)
   struct mpm *m = state;
   memory_free(&m->run_speed);
   memory_free(&m->row_work);
+  memory_free(&m->run_heat);
   memory_free(&m->marker_end);
   memory_free(&m->marker_area);
   memory_free(&m->marker_normal);
@@ -182,6 +217,7 @@ void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double 
   const struct material *material = scene_material(sim->scene, m->points->group[p]);
   int                    dim = sim->grid.dim;
   l->v[LEDGER_mass_solid] += m->mass_p[p];
+  if (m->temperature_p) l->v[LEDGER_heat] += m->mass_p[p] * material->heat_capacity * m->temperature_p[p];
   for (int d = 0; d < dim; d++) l->v[LEDGER_potential] -= m->mass_p[p] * gravity[d] * m->x_p[p * dim + d];
   if (material->model->held) return;
   double F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, energy = 0;
@@ -205,6 +241,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   l->v[LEDGER_work_loads] += m->now.work_loads;
   l->v[LEDGER_plastic] += m->now.plastic;
   l->v[LEDGER_friction] += m->now.friction;
+  l->v[LEDGER_heat_sides] += m->now.heat_sides;
   l->v[LEDGER_damping] += m->now.damping;
   l->v[LEDGER_mass_solid_out] += m->now.strays.mass_out;
   l->v[LEDGER_mass_solid_lost] += m->now.strays.mass_lost;

@@ -43,6 +43,7 @@ struct mpm {
 #include "mpm/fields.def"
 #undef FIELD
   struct kernel_grid    kernel_grid;
+  struct kernel_grid    heat_grid; /* without modified functions: sides are mirrors for heat */
   const struct kernels *kernels;
   struct points        *points;
   int                   n_bodies;
@@ -56,11 +57,14 @@ struct mpm {
     double plastic;           /* J lost to plastic flow, since the start */
     double friction;          /* J lost to friction, since the start */
     double damping;           /* J lost to local damping, since the start */
+    double heat_sides;        /* J that came in through sides, less that of points that left, since the start */
 
     struct mpm_strays strays;
   } now;
   double *run_speed;          /* [n_runs][3] what they were made of: speeds, and the plastic work of the step */
   double *row_work;           /* [rows of nodes] J, scratch of sums over nodes */
+  double *run_heat;           /* [n_runs] J, gained by points in the step */
+  double  heat_given;         /* J that sides with a flux, and sources, gave in the step */
   long   *marker_end;         /* [loads + tracers] markers of item i end here */
   double *marker_area;        /* [markers] m2 (m in 2D); 0: tracer */
   double (*marker_normal)[3]; /* outward, for pressure loads */

@@ -31,7 +31,7 @@ static void note_last(const struct sim *sim, struct mpm *m, long p)
   for (int d = 0; d < sim->grid.dim; d++) s->last_x[d] = m->x_p[p * sim->grid.dim + d];
 }
 
-/* momentum and energy of a point to what has left: sign -1 takes away what stays */
+/* momentum, energy and heat of a point to what has left: sign -1 takes away what stays */
 static void account(const struct sim *sim, struct mpm *m, long p, double sign)
 {
   struct ledger l = {{0}};
@@ -39,6 +39,7 @@ static void account(const struct sim *sim, struct mpm *m, long p, double sign)
   sim_gravity(sim, sim->t, gravity);
   mpm_measure_point(sim, m, gravity, p, &l);
   for (int d = 0; d < 3; d++) m->now.strays.momentum[d] += sign * l.v[LEDGER_momentum_x + d];
+  m->now.heat_sides -= sign * l.v[LEDGER_heat];
   m->now.strays.energy += sign * (l.v[LEDGER_kinetic_solid] + l.v[LEDGER_potential] + l.v[LEDGER_elastic]);
 }
 

@@ -64,6 +64,7 @@ static int update_batch(struct mpm *m, const struct scene *scene, const struct m
                           model->n_history > 0 ? work : NULL);
   if (history == own) copy_history(n, model->n_history, own, scene->n_history, all);
   for (int i = 0; i < n && history; i++) seen[2] += work[i] * m->volume_p[p0 + i];
+  if (history && m->heat_p) memcpy(m->heat_p + p0, work, (size_t)n * sizeof *work);
   survey(m, material, scene->dim, p0, n, history, seen);
   return bad;
 }

@@ -220,6 +220,7 @@ enum status scene_check(struct reader *reader, struct scene *scene)
   if (scene->n_solids == 0 && !scene->fluid.present)
     return reader_fail(at(reader, "solids"), "the scene holds neither a solid nor a fluid; add one");
   TRY(check_materials(reader, scene));
+  TRY(scene_check_heat(reader, scene));
   TRY(check_metrics(reader, scene));
   at(reader, "%s", "");
   TRY(scene_check_places(reader, scene));

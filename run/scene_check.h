@@ -13,6 +13,9 @@ enum status scene_check_places(struct reader *reader, struct scene *scene) MUST_
 /** Gauges and metrics speak of fields, ledger entries and movements that this scene has. */
 enum status scene_check_words(struct reader *reader, const struct scene *scene) MUST_CHECK;
 
+/** Every solid has a heat capacity or none; sides that heat or cool have something to conduct it. run/scene_heat.c */
+enum status scene_check_heat(struct reader *reader, const struct scene *scene) MUST_CHECK;
+
 /** Points of the regular lattice (points per axis in every cell) that lie in a shape. */
 long scene_count_points(const struct scene *scene, const struct shape *shape);
 

@@ -84,6 +84,12 @@ static const struct param material_params[] = {
      "diameter of a grain; 0: not given"},
     {"lateral_ratio", PARAM_NUMBER, AT(material, lateral_ratio), "-", -1, 10, "-1", NULL,
      "lateral over vertical effective stress of a start at rest, such as 1 on smooth slopes; negative: the law's own"},
+    {"heat_capacity", PARAM_NUMBER, AT(material, heat_capacity), "J/(kg K)", 0, 1e9, "0", NULL,
+     "of the grains; where it is given, heat is solved"},
+    {"conductivity", PARAM_NUMBER, AT(material, conductivity), "W/(m K)", 0, 1e9, "0", NULL,
+     "of heat, in the grains; a medium has the share of its grains"},
+    {"work_to_heat", PARAM_NUMBER, AT(material, work_to_heat), "-", 0, 1, "1", NULL,
+     "share of plastic work that becomes heat"},
     PARAM_END};
 static const struct choice model_choice = {
     "model",          NULL, "skeleton law", constitutive_row, AT(material, model), AT(material, model_params),
@@ -95,6 +101,8 @@ static const struct param solid_params[] = {
     {"part_of", PARAM_TEXT, AT(solid, part_of), "-", 0, 0, "", NULL,
      "in a scene with contact: solids with the same word here are one body; empty: a body of its own"},
     {"velocity", PARAM_FUNCTION3, AT(solid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
+    {"temperature", PARAM_FUNCTION, AT(solid, temperature), "K", 0, 0, "293.15", NULL,
+     "at the start, where heat is solved"},
     PARAM_END};
 static const struct param contact_params[] = {
     {"friction", PARAM_NUMBER, AT(contact, friction), "-", 0, INFINITY, "0", NULL,
@@ -144,27 +152,34 @@ static const struct section fluid_section = {.meaning = "liquid", .params = flui
 
 const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-#define SIDE_3D(name, kind, side, meaning)                                                                             \
+#define SIDE_3D(name, kind, side, fallback, meaning)                                                                   \
   {                                                                                                                    \
-    name, ENTRY_VALUE, &value_##kind, NULL, AT(scene, side), 0, "slip", NULL, NULL, "-", meaning, true                 \
+    name, ENTRY_VALUE, &value_##kind, NULL, AT(scene, side), 0, fallback, NULL, NULL, "-", meaning, true               \
   }
-#define SIDES_OF(kind, member)                                                                                         \
-  VALUE("x_min", kind, scene, member[X_MIN], "slip", "-", "side at the lowest x"),                                     \
-      VALUE("x_max", kind, scene, member[X_MAX], "slip", "-", "side at the highest x"),                                \
-      VALUE("y_min", kind, scene, member[Y_MIN], "slip", "-", "side at the lowest y"),                                 \
-      VALUE("y_max", kind, scene, member[Y_MAX], "slip", "-", "side at the highest y"),                                \
-      SIDE_3D("z_min", kind, member[Z_MIN], "side at the lowest z"),                                                   \
-      SIDE_3D("z_max", kind, member[Z_MAX], "side at the highest z"), ENTRY_END
+#define SIDES_OF(kind, member, fallback)                                                                               \
+  VALUE("x_min", kind, scene, member[X_MIN], fallback, "-", "side at the lowest x"),                                   \
+      VALUE("x_max", kind, scene, member[X_MAX], fallback, "-", "side at the highest x"),                              \
+      VALUE("y_min", kind, scene, member[Y_MIN], fallback, "-", "side at the lowest y"),                               \
+      VALUE("y_max", kind, scene, member[Y_MAX], fallback, "-", "side at the highest y"),                              \
+      SIDE_3D("z_min", kind, member[Z_MIN], fallback, "side at the lowest z"),                                         \
+      SIDE_3D("z_max", kind, member[Z_MAX], fallback, "side at the highest z"), ENTRY_END
 
-static const struct entry   solid_sides[] = {SIDES_OF(side_solid, solid_side)};
-static const struct entry   fluid_sides[] = {SIDES_OF(side_fluid, fluid_side)};
+static const struct entry   solid_sides[] = {SIDES_OF(side_solid, solid_side, "slip")};
+static const struct entry   fluid_sides[] = {SIDES_OF(side_fluid, fluid_side, "slip")};
+static const struct entry   heat_sides[] = {SIDES_OF(side_heat, heat_side, "insulated")};
 static const struct section solid_sides_section = {.meaning = "what the sides of the grid do to solids",
                                                    .entries = solid_sides};
 static const struct section fluid_sides_section = {.meaning = "what the sides of the grid do to the fluid",
                                                    .entries = fluid_sides};
-static const struct entry   boundary_entries[] = {
-      SECTION("solid", solid_sides_section, 0, "{}", "what the sides of the grid do to solids"),
-      SECTION("fluid", fluid_sides_section, 0, "{}", "what the sides of the grid do to the fluid"), ENTRY_END};
+static const struct section heat_sides_section = {
+    .meaning =
+        "what the sides of the grid do to the heat of solids: insulated, {\"temperature\": K} or {\"flux\": W/m2 "
+        "into the solid}",
+    .entries = heat_sides};
+static const struct entry boundary_entries[] = {
+    SECTION("solid", solid_sides_section, 0, "{}", "what the sides of the grid do to solids"),
+    SECTION("fluid", fluid_sides_section, 0, "{}", "what the sides of the grid do to the fluid"),
+    SECTION("heat", heat_sides_section, 0, "{}", "what the sides of the grid do to the heat of solids"), ENTRY_END};
 static const struct section boundary_section = {.meaning = "conditions at the sides of the grid",
                                                 .entries = boundary_entries};
 

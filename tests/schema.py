@@ -43,6 +43,7 @@ FAULTS = [
     (["fluid", "bulk_modulus"], "huge"),
     (["boundary", "fluid", "y_max"], {"presure": 0}),
     (["boundary", "solid", "y_max"], {"pressure": 0}),
+    (["boundary", "heat"], {"y_max": {"pressure": 0}}),
     (["gauges", "base_pressure", "region"], "everywhere"),
     (["gauges", "base_pressure", "at"], None),
     (["numerics", "theta"], 0.4),

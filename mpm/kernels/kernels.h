@@ -39,12 +39,13 @@ struct g2p_args {
 
 enum { LANES = 8 }; /* scalars that one call of scatter or gather can carry */
 
-/* Scalars of points to nodes: node[q] += factor[q] sum w weight (value[q] + gradient[q].(x_i - x_p)).
- * value[q] [n] (NULL: one); gradient[q] [n][DIM] or NULL; weight [n] or NULL; factor 0 counts as 1; node[q] [size]. */
+/* Scalars of points to nodes: node[q] += factor[q] sum weight [w (value[q] + gradient[q].(x_i - x_p)) + grad
+ * w.flux[q]]. value[q] [n] (NULL: one); gradient[q], flux[q] [n][DIM] or NULL; weight [n] or NULL; factor 0 counts as
+ * 1; node[q] [size]. */
 struct scatter_args {
   int           n;
   double        factor[LANES];
-  const double *x, *weight, *value[LANES], *gradient[LANES];
+  const double *x, *weight, *value[LANES], *gradient[LANES], *flux[LANES];
   double       *node[LANES];
 };
 

@@ -151,14 +151,15 @@ static inline void scatter_point(const struct kernel_grid *kg, const struct scat
   struct stencil s;
   stencil_at(kg, a->x + p * DIM, &s);
   double *u = tile_at(t, &s), weight = a->weight ? a->weight[p] : 1;
-  ROW     w = weight * s.w[0], wr = weight * s.wr[0];
+  ROW     w = weight * s.w[0], wr = weight * s.wr[0], slope = weight * s.d[0];
   for (int q = 0; q < a->n; q++) {
     double        value = a->value[q] ? a->value[q][p] : 1;
-    const double *A = a->gradient[q] + p * DIM;
+    const double *A = a->gradient[q] + p * DIM, *flux = a->flux[q] + p * DIM;
     if (a->gradient[q])
       tile_add(u + q * PITCH, &s, s.wr, value * w + A[0] * wr, A[1] * w, A[DIM - 1] * w);
     else
       tile_add_even(u + q * PITCH, &s, value * w);
+    if (a->flux[q]) tile_add(u + q * PITCH, &s, s.d, flux[0] * slope, flux[1] * w, flux[DIM - 1] * w);
   }
 }
 

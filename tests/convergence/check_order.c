@@ -64,6 +64,9 @@ static void climb(const struct ladder *ladder)
 /* permeability: so low that inertia, which Terzaghi leaves out, is below the error; to T_v = 0.1 */
 #define CREEPING "materials.sand.permeability=1e-4", "time.end=0.73"
 
+/* steps of the same share of their limit on every grid: no snapshots in between */
+#define STEADY "output.interval=1565625"
+
 static const struct ladder ladders[] = {
     {"bar_vibration", NULL, "u_end_rms", 1.8, {"numerics.basis=quadratic", SLOW}},
     {"bar_vibration", NULL, "u_end_rms", 1.8, {"numerics.basis=cubic", SLOW}},
@@ -71,6 +74,14 @@ static const struct ladder ladders[] = {
     {"bar_vibration", NULL, "u_rms", 1.8, {"numerics.basis=quadratic", SLOW}},
     {"terzaghi_column", "ice", "p_rms_0.1", 1.8, {"numerics.basis=quadratic", LIGHT, CREEPING}},
     {"terzaghi_column", "ice", "p_rms_0.1", 1.8, {"numerics.basis=cubic", LIGHT, CREEPING}},
+    {"heated_bar", NULL, "t_rms_0.1", 1.8, {"numerics.basis=linear", STEADY}},
+    {"heated_bar", NULL, "t_rms_0.1", 1.8, {"numerics.basis=gimp", STEADY}},
+    {"heated_bar", NULL, "t_rms_0.1", 1.8, {"numerics.basis=quadratic", STEADY}},
+    {"heated_bar", NULL, "t_rms_0.1", 1.8, {"numerics.basis=cubic", STEADY}},
+    {"heated_bar+fixed", NULL, "t_rms_0.05", 1.8, {"numerics.basis=quadratic", STEADY}},
+    {"heated_bar+fixed", NULL, "t_rms_0.05", 1.8, {"numerics.basis=cubic", STEADY}},
+    {"heated_bar+flux", NULL, "t_max_0.1", 1.8, {"numerics.basis=quadratic", STEADY}},
+    {"heated_bar+flux", NULL, "t_max_0.1", 1.8, {"numerics.basis=cubic", STEADY}},
 };
 enum { LADDERS = sizeof ladders / sizeof *ladders };
 

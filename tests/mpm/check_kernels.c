@@ -230,6 +230,41 @@ START_TEST(scatter_carries_gradients)
 }
 END_TEST
 
+/* a point's flux meets the gradients of the weights, beside its value and gradient */
+START_TEST(scatter_carries_fluxes)
+{
+  struct bench b;
+  double      *plain;
+  create(_i, WALL_MIRRORED, 0, &b);
+  must(NEW(&plain, b.kg.g.size));
+  struct scatter_args args = {.n = 2,
+                              .factor = {0, 3},
+                              .x = b.x,
+                              .weight = b.mass,
+                              .value = {NULL, b.volume},
+                              .gradient = {NULL, b.affine},
+                              .flux = {NULL, b.vel},
+                              .node = {b.mass_nc, b.vel_nc}};
+  for (long q = 0; q < N * b.dim; q++) b.affine[q] = 0.3 * sin((double)q), b.vel[q] = cos(0.7 * (double)q);
+  FOR_RUNS(b.points, &b.kg.g, run, group) b.k->scatter(&b.kg, &run, &args);
+  for (long p = 0; p < N; p++) {
+    long   node[MAX_SUPPORT];
+    double w[MAX_SUPPORT], slope[MAX_SUPPORT][3], x[3];
+    b.k->weights(&b.kg, b.x + p * b.dim, node, w, slope);
+    for (int q = 0; q < b.k->n_support; q++) {
+      double value = b.volume[p] * w[q];
+      grid_node(&b.kg.g, node[q], x);
+      for (int d = 0; d < b.dim; d++)
+        value += w[q] * b.affine[p * b.dim + d] * (x[d] - b.x[p * b.dim + d]) + slope[q][d] * b.vel[p * b.dim + d];
+      plain[node[q]] += 3 * b.mass[p] * value;
+    }
+  }
+  for (long c = 0; c < b.kg.g.size; c++) ck_assert_double_eq_tol(b.vel_nc[c], plain[c], 1e-11);
+  memory_free(&plain);
+  destroy(&b);
+}
+END_TEST
+
 /* ---- there and back ---- */
 
 /* a field with constant gradient L on points: velocity and C */
@@ -363,6 +398,7 @@ int main(void)
   tcase_add_loop_test(tcase, the_moment_of_splines, 0, VARIANTS);
   tcase_add_loop_test(tcase, tiles_are_plain_sums, 0, VARIANTS);
   tcase_add_loop_test(tcase, scatter_carries_gradients, 0, VARIANTS);
+  tcase_add_loop_test(tcase, scatter_carries_fluxes, 0, VARIANTS);
   tcase_add_loop_test(tcase, affine_motion_survives, 0, VARIANTS);
   tcase_add_loop_test(tcase, blends, 0, VARIANTS);
   tcase_add_loop_test(tcase, uniform_pressure_pushes_nothing_inside, 0, VARIANTS);
