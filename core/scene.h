@@ -119,11 +119,12 @@ enum metric_measure {
   MEASURE_FREQUENCY,
   MEASURE_DECAY,    /* Hz, 1/s: of the damped oscillation of a gauge */
   MEASURE_DRIFT,    /* largest departure of a gauge from its first value in the span, over that value */
+  MEASURE_CHANGE,   /* of a gauge from the first to the last sample in the span, over the first */
   MEASURE_REACH,    /* s: when a gauge has come a share of its way from the first to the last sample in the span */
   MEASURE_SCATTER,  /* rms of a field of points about a plane through the 4 cells around along each axis */
   MEASURE_ROUGHNESS /* standard deviation of h2 times the Laplacian of a cell field */
 };
-#define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|reach|scatter|roughness"
+#define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|change|reach|scatter|roughness"
 
 struct metric {
   char            name[NAME_LENGTH];
@@ -142,7 +143,7 @@ struct metric {
 };
 
 /* Bodies that meet: each has its own velocities at the nodes. */
-enum contact_normal { NORMAL_DIFFERENCE, NORMAL_LARGER };
+enum contact_normal { NORMAL_WEIGHTED, NORMAL_DIFFERENCE };
 enum contact_detection { DETECT_REACH, DETECT_APPROACH };
 struct contact {
   bool   present;

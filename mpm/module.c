@@ -242,6 +242,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   l->v[LEDGER_plastic] += m->now.plastic;
   l->v[LEDGER_friction] += m->now.friction;
   l->v[LEDGER_heat_sides] += m->now.heat_sides;
+  l->v[LEDGER_elastic] += m->now.contact;
   l->v[LEDGER_damping] += m->now.damping;
   l->v[LEDGER_mass_solid_out] += m->now.strays.mass_out;
   l->v[LEDGER_mass_solid_lost] += m->now.strays.mass_lost;

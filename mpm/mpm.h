@@ -56,6 +56,7 @@ struct mpm {
     double work_loads;        /* J, since the start */
     double plastic;           /* J lost to plastic flow, since the start */
     double friction;          /* J lost to friction, since the start */
+    double contact;           /* J stored where bodies overlap */
     double damping;           /* J lost to local damping, since the start */
     double heat_sides;        /* J that came in through sides, less that of points that left, since the start */
 

@@ -123,15 +123,16 @@ static enum status oscillation(const struct compiled_metric *m, long n, const do
   return OK;
 }
 
+/* against the first sample: the largest departure, or that of the last sample */
 static enum status drift(const struct compiled_metric *m, long n, const double *v, double *result)
 {
   double largest = 0;
   if (v[0] == 0)
-    return FAIL(ERR_INPUT, "metrics.%s: %s starts from 0, a drift relative to it has no meaning; measure max",
+    return FAIL(ERR_INPUT, "metrics.%s: %s starts from 0, a drift or change relative to it has no meaning; measure max",
                 m->metric->name, m->metric->gauge);
   for (long i = 0; i < n; i++)
     if (!(fabs(v[i] / v[0] - 1) <= largest)) largest = fabs(v[i] / v[0] - 1);
-  *result = largest;
+  *result = m->metric->measure == MEASURE_CHANGE ? v[n - 1] / v[0] - 1 : largest;
   return OK;
 }
 
@@ -171,6 +172,7 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
   case MEASURE_REACH:
     return reach(m, n, t, v, result, expected);
   case MEASURE_DRIFT:
+  case MEASURE_CHANGE:
     return drift(m, n, v, result);
   default:
     return spread(m, n, t, v, result, expected);

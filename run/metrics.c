@@ -35,7 +35,7 @@ double metric_scale(const struct compiled_metric *m, double expected, bool *rela
 {
   const struct expectancy *e = &m->expected;
   double                   scale = m->metric->scale;
-  if (m->metric->measure == MEASURE_DRIFT) {
+  if (m->metric->measure == MEASURE_DRIFT || m->metric->measure == MEASURE_CHANGE) {
     *relative = true;
     return 1;
   }

@@ -107,10 +107,11 @@ static const struct param solid_params[] = {
 static const struct param contact_params[] = {
     {"friction", PARAM_NUMBER, AT(contact, friction), "-", 0, INFINITY, "0", NULL,
      "Coulomb coefficient between bodies; \"infinite\": what touches sticks"},
-    {"normal", PARAM_CHOICE, AT(contact, normal), "-", 0, 0, "difference", "difference|larger",
-     "normal at a node: of the difference of both bodies' volume gradients, or of the larger one"},
+    {"normal", PARAM_CHOICE, AT(contact, normal), "-", 0, 0, "weighted", "weighted|difference",
+     "normal at a node: of both bodies' volume gradients weighted with their squares, or of their difference"},
     {"detection", PARAM_CHOICE, AT(contact, detection), "-", 0, 0, "reach", "reach|approach",
-     "bodies meet where the reach of their points overlaps and they approach, or wherever they approach at a node"},
+     "reach: bodies meet where their points overlap, and are pushed apart; approach: wherever they approach at a node "
+     "they share, which stops them"},
     PARAM_END};
 static const struct section contact_section = {.meaning = "contact between bodies", .params = contact_params};
 

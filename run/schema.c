@@ -297,10 +297,11 @@ static void define_side(struct builder *b, cJSON *defs, const char *name, bool f
 static void define_all(struct builder *b, cJSON *defs)
 {
   add(b, defs, "function",
-      cJSON_Parse("{\"anyOf\": [{\"type\": [\"number\", \"string\"]}, {\"type\": \"object\", \"required\": [\"table\"], "
-                  "\"properties\": {\"table\": {\"type\": \"string\"}, \"column\": {\"type\": \"string\"}, \"scale\": "
-                  "{\"type\": \"number\"}}, \"patternProperties\": {\"^(//|[$]schema$)\": {}}, \"additionalProperties\": "
-                  "false}], \"description\": \"number, expression of x, y, z, t, or table over time\"}"));
+      cJSON_Parse(
+          "{\"anyOf\": [{\"type\": [\"number\", \"string\"]}, {\"type\": \"object\", \"required\": [\"table\"], "
+          "\"properties\": {\"table\": {\"type\": \"string\"}, \"column\": {\"type\": \"string\"}, \"scale\": "
+          "{\"type\": \"number\"}}, \"patternProperties\": {\"^(//|[$]schema$)\": {}}, \"additionalProperties\": "
+          "false}], \"description\": \"number, expression of x, y, z, t, or table over time\"}"));
   add(b, defs, "function3",
       cJSON_Parse(
           "{\"type\": \"array\", \"minItems\": 2, \"maxItems\": 3, \"items\": {\"$ref\": \"#/$defs/function\"}}"));
