@@ -34,6 +34,10 @@ struct job {
   {"young", 1e7}, { "poisson", 0.3 }
 #define SOFT                                                                                                           \
   {"residual_friction_angle_deg", 10}, { "softening_end", 1e3 }
+#define CLAY                                                                                                           \
+  {"kappa", 0.05}, {"lambda", 0.25}, {"M", 0.9}, {"poisson", 0.3}, { "void_ratio", 1.2 }
+#define GRAINS                                                                                                         \
+  {"mu_s", 0.38}, {"mu_2", 0.64}, {"grain_diameter", 1e-3}, { "density", 2500 }
 static const struct job jobs[] = {
     {"linear_elastic", "", 1e5, 1e-9, {SAND}},
     {"mohr_coulomb", "elastic", 1e5, 1e-9, {SAND, {"friction_angle_deg", 30}}},
@@ -51,6 +55,15 @@ static const struct job jobs[] = {
      1e5,
      1e-4,
      {SAND, {"friction_angle_deg", 30}, {"dilation_angle_deg", 10}, {"cohesion", 1e3}, {"flow", 1}}},
+    {"drucker_prager", "elastic", 1e5, 1e-9, {SAND, {"friction_angle_deg", 30}}},
+    {"drucker_prager", "yields", 1e5, 1e-4, {SAND, {"friction_angle_deg", 30}}},
+    {"von_mises", "elastic", 1e5, 1e-9, {SAND, {"shear_strength", 1e4}}},
+    {"von_mises", "yields", 1e5, 1e-4, {SAND, {"shear_strength", 1e4}}},
+    {"von_mises", "yields, softens", 1e5, 1e-4, {SAND, {"shear_strength", 1e4}, {"sensitivity", 5}}},
+    {"cam_clay", "elastic", 1e5, 1e-9, {CLAY, {"overconsolidation_ratio", 2}}},
+    {"cam_clay", "yields", 1e5, 1e-4, {CLAY}},
+    {"mu_i", "elastic", 1e5, 1e-9, {SAND, GRAINS}},
+    {"mu_i", "yields", 1e5, 1e-4, {SAND, GRAINS}},
 };
 
 static double random_number(uint64_t *state)
@@ -82,7 +95,7 @@ static void fill(const struct job *job, const struct param *table, char *prm)
 static double dF[N][9], stress[N][6], history[N * MAX_HISTORY], work[N];
 
 /* every point has its own strain without change of volume, again and again */
-static void start(const struct job *job)
+static void start(const struct job *job, const struct constitutive_model *law, const void *prm)
 {
   uint64_t seed = 1;
   for (int i = 0; i < N; i++) {
@@ -92,6 +105,7 @@ static void start(const struct job *job)
     for (int k = 0; k < 6; k++) stress[i][k] = k < 3 ? -job->pressure : 0.0;
   }
   memset(history, 0, sizeof history);
+  if (law->start) law->start(prm, N, stress[0], history);
 }
 
 /* s of a step of all points */
@@ -112,7 +126,7 @@ int main(void)
     double                           prm[64] = {0}, best = INFINITY;
     int                              yielding = 0;
     fill(job, law->params, (char *)prm);
-    start(job);
+    start(job, law, prm);
     for (int repeat = 0; repeat < WARM_UP; repeat++) measure(law, prm); /* until all yield */
     for (int repeat = 0; repeat < REPEATS; repeat++) best = fmin(best, measure(law, prm));
     for (int i = 0; i < N; i++) yielding += work[i] > 0.0;

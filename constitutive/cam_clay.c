@@ -5,6 +5,7 @@
  */
 #include "constitutive/clay.h"
 #include "constitutive/deviator.h"
+#include "constitutive/exponential.h"
 
 struct cam_clay {
   double kappa, lambda, M, friction, poisson, void_ratio, preconsolidation, overconsolidation, floor;
@@ -57,98 +58,94 @@ static struct clay read_clay(const void *prm)
                        .floor = m->floor};
 }
 
-/* (exp(y) - 1)/y, up to an exponent of 300 */
-static void growth(const VECTOR *y, VECTOR *result)
-{
-  enum { TERMS = 10 };
-  const double small = 0.1, most = 300.0;
-  VECTOR       sum = VECTOR_ALL(1.0), size = VECTOR_ABS(*y);
-  MASK         large = (MASK)(size > small);
-  for (int k = TERMS + 1; k >= 2; k--) sum = 1.0 + *y * sum * (1.0 / k);
-  *result = sum;
-  if (!vector_any(&large)) return;
-  for (int i = 0; i < LANES; i++)
-    if (large[i]) (*result)[i] = expm1(fmin(most, (*y)[i])) / (*y)[i];
-}
-
 /* Elastic step of a group. */
 struct elastic {
-  VECTOR p0, p;          /* Pa, before and after */
-  VECTOR change, v;      /* of the specific volume; its mean */
-  VECTOR s[6], e[6], G2; /* deviators of the stress before and of the strain; twice the shear modulus of the step */
+  VECTOR p0, p;      /* Pa, before and after */
+  VECTOR change, v;  /* of the specific volume; its mean */
+  VECTOR s[6], e[6]; /* deviators of the stress before and of the strain */
 };
 
-/* Pressures above the floor by the exponential, others one by one. */
+/* Pressures that stay above the floor by the exponential, others in the measure that goes on below. */
 static void compress(const struct clay *c, struct elastic *t, VECTOR *secant)
 {
-  VECTOR y = -t->change / c->kappa, mean;
-  growth(&y, &mean);
-  *secant = t->p0 * mean;
-  t->p = t->p0 + *secant * y;
+  VECTOR y = -t->change / c->kappa, growth, x0, x, p, secant_below;
+  vector_expm1(&y, &growth);
+  t->p = t->p0 + t->p0 * growth;
+  *secant = VECTOR_SELECT(y != 0.0, t->p0 * growth / y, t->p0);
   MASK low = (MASK)(t->p0 < c->floor) | (MASK)(t->p < c->floor);
   if (!vector_any(&low)) return;
-  for (int i = 0; i < LANES; i++) {
-    if (!low[i]) continue;
-    double x0 = clay_measure(c, t->p0[i]), x = x0 + y[i];
-    t->p[i] = clay_pressure(c, x);
-    (*secant)[i] = clay_secant(c, t->p0[i], x0, t->p[i], x);
-  }
+  clay_measure(c, &t->p0, &x0);
+  x = x0 + y;
+  clay_pressure(c, &x, &p);
+  clay_secant(c, &t->p0, &x0, &p, &x, &secant_below);
+  t->p = VECTOR_SELECT(low, p, t->p);
+  *secant = VECTOR_SELECT(low, secant_below, *secant);
 }
 
 /* Adds the elastic stress of the group's strain; answers it in parts. */
 static void strain(const struct clay *c, const VECTOR *v, struct corotate_group *g, struct elastic *t)
 {
-  VECTOR volume = g->strain[XX] + g->strain[YY] + g->strain[ZZ], mean, unused, secant;
+  VECTOR volume = g->strain[XX] + g->strain[YY] + g->strain[ZZ], mean, unused, growth, secant;
   deviator_split(g->stress, &mean, t->s, &unused);
   deviator_split(g->strain, &unused, t->e, &secant);
-  growth(&volume, &unused);
+  vector_expm1(&volume, &growth);
   t->p0 = -mean;
-  t->v = *v * unused;
-  t->change = t->v * volume;
+  t->change = *v * growth;
+  t->v = VECTOR_SELECT(volume != 0.0, t->change / volume, *v);
   compress(c, t, &secant);
-  t->G2 = 2.0 * c->shear / c->kappa * t->v * secant;
-  for (int k = 0; k < 6; k++) g->stress[k] += t->G2 * t->e[k];
+  VECTOR twice_G = 2.0 * c->shear / c->kappa * t->v * secant;
+  for (int k = 0; k < 6; k++) g->stress[k] += twice_G * t->e[k];
   for (int k = 0; k < 3; k++) g->stress[k] -= t->p - t->p0;
 }
 
-/* Returns lane i. history, work: of that point */
-static void return_point(const struct clay *c, int i, const struct elastic *t, double *history, double *work,
-                         VECTOR stress[6])
+/* a:b of symmetric tensors */
+static void contract(const VECTOR a[6], const VECTOR b[6], VECTOR *sum)
 {
-  static const double weight[6] = {1, 1, 1, 2, 2, 2};
-  struct clay_step    step = {.p = t->p0[i], .pc = history[PRECONSOLIDATION], .change = t->change[i], .v = t->v[i]};
-  struct clay_state   end;
-  double              trial[6], square = 0.0;
+  *sum = (a[XX] * b[XX] + a[YY] * b[YY] + a[ZZ] * b[ZZ]) + 2.0 * (a[XY] * b[XY] + a[YZ] * b[YZ] + a[XZ] * b[XZ]);
+}
+
+/* Stress of the lanes outside. */
+static void return_lanes(const struct clay *c, const struct elastic *t, const VECTOR *pc, const MASK *outside,
+                         struct clay_state *end, VECTOR stress[6])
+{
+  struct clay_step step = {.p = t->p0, .pc = *pc, .change = t->change, .v = t->v};
+  VECTOR           trial[6], square, size;
+  contract(t->s, t->s, &step.ss);
+  contract(t->s, t->e, &step.se);
+  contract(t->e, t->e, &step.ee);
+  clay_return(c, &step, outside, end);
+  for (int k = 0; k < 6; k++) trial[k] = t->s[k] + 2.0 * end->shear * t->e[k];
+  contract(trial, trial, &square);
+  square *= 1.5;
+  vector_sqrt(&square, &size);
+  VECTOR scale = VECTOR_SELECT(size > 0.0, end->q / size, size);
   for (int k = 0; k < 6; k++) {
-    step.ss += weight[k] * t->s[k][i] * t->s[k][i];
-    step.se += weight[k] * t->s[k][i] * t->e[k][i];
-    step.ee += weight[k] * t->e[k][i] * t->e[k][i];
+    VECTOR returned = scale * trial[k];
+    if (k < 3) returned -= end->p;
+    stress[k] = VECTOR_SELECT(*outside, returned, stress[k]);
   }
-  clay_return(c, &step, &end);
-  for (int k = 0; k < 6; k++) {
-    trial[k] = t->s[k][i] + 2.0 * end.shear * t->e[k][i];
-    square += weight[k] * trial[k] * trial[k];
-  }
-  double scale = square > 0.0 ? end.q / sqrt(1.5 * square) : 0.0;
-  for (int k = 0; k < 6; k++) stress[k][i] = scale * trial[k] - (k < 3 ? end.p : 0.0);
-  history[PRECONSOLIDATION] = end.pc;
-  history[PLASTIC_STRAIN] += end.plastic;
-  if (work) *work = end.p * end.compression + end.q * end.plastic;
 }
 
 /* Returns what is outside of the ellipse by more than round-off. */
 static void return_group(const struct clay *c, int m, const struct elastic *t, double *history, double *work,
                          VECTOR stress[6])
 {
-  const double round_off = 1e-14;
-  VECTOR       mean, dev[6], J2, pc, length, least = VECTOR_ALL(2.0 * c->floor);
+  const double      round_off = 1e-14;
+  struct clay_state end;
+  VECTOR            mean, dev[6], J2, pc, length, least = VECTOR_ALL(2.0 * c->floor);
   deviator_split(stress, &mean, dev, &J2);
   group_load(m, N_HISTORY, history, PRECONSOLIDATION, &pc);
   length = VECTOR_MAX(pc, least);
   MASK outside = (MASK)(3.0 * J2 / (c->M * c->M) + mean * (mean + length) > round_off * length * length);
   if (!vector_any(&outside)) return;
-  for (int i = 0; i < m; i++)
-    if (outside[i]) return_point(c, i, t, &history[N_HISTORY * i], work ? &work[i] : NULL, stress);
+  return_lanes(c, t, &pc, &outside, &end, stress);
+  for (int i = 0; i < m; i++) {
+    double *own = &history[N_HISTORY * i];
+    if (!outside[i]) continue;
+    own[PRECONSOLIDATION] = end.pc[i];
+    own[PLASTIC_STRAIN] += end.plastic[i];
+    if (work) work[i] = end.p[i] * end.compression[i] + end.q[i] * end.plastic[i];
+  }
 }
 
 static int update(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
@@ -186,7 +183,7 @@ static void start(const void *prm, int n, const double *stress, double *history)
     double  share = p > 0.0 ? fmin(1.0, q / (c.M * p)) : 0.0, through = p * (1.0 + share * share);
     double *own = &history[(long)N_HISTORY * i];
     own[PLASTIC_STRAIN] = 0.0;
-    own[PRECONSOLIDATION] = clay_length(&c, fmax(m->preconsolidation, m->overconsolidation * through));
+    own[PRECONSOLIDATION] = fmax(2.0 * c.floor, fmax(m->preconsolidation, m->overconsolidation * through));
     own[SPECIFIC_VOLUME] = 1.0 + m->void_ratio;
   }
 }
@@ -224,7 +221,7 @@ static void energy(const void *prm, int n, const double *F, const double *stress
 static double yield(const void *prm, const double *stress, const double *history)
 {
   struct clay c = read_clay(prm);
-  double      mean, q = sqrt(3.0) * deviator_size(stress, &mean), length = clay_length(&c, history[PRECONSOLIDATION]);
+  double mean, q = sqrt(3.0) * deviator_size(stress, &mean), length = fmax(2.0 * c.floor, history[PRECONSOLIDATION]);
   return (q * q / (c.M * c.M) + mean * (mean + length)) / length;
 }
 

@@ -2,136 +2,172 @@
  * exactly for every trial of that number. */
 #include "constitutive/clay.h"
 
+#include "constitutive/exponential.h"
+
 #include <float.h>
-#include <math.h>
-#include <stdbool.h>
 
-/* Exponents beyond, of pressures that no soil bears, are cut, so that squares stay finite. */
-#define MOST 300.0
-
-static double exp_cut(double x) { return exp(fmax(-MOST, fmin(MOST, x))); }
-
-double clay_measure(const struct clay *c, double p) { return p >= c->floor ? log(p / c->floor) : p / c->floor - 1.0; }
-
-double clay_pressure(const struct clay *c, double x) { return c->floor * (x >= 0.0 ? exp_cut(x) : 1.0 + x); }
-
-/* Above the floor p/floor = exp x: the logarithmic mean, for close pressures by its series about the geometric one. */
-double clay_secant(const struct clay *c, double p0, double x0, double p, double x)
+void clay_measure(const struct clay *c, const VECTOR *p, VECTOR *x)
 {
-  const double close = 1e-2;
-  double       d = x - x0;
-  if (x <= 0.0 && x0 <= 0.0) return c->floor;
-  if (fabs(d) > close) return (p - p0) / d;
-  if (x >= 0.0 && x0 >= 0.0) return sqrt(p * p0) * (1.0 + d * d / 24.0 * (1.0 + d * d / 80.0));
-  return c->floor * (expm1(fmax(x, x0)) - fmin(x, x0)) / fabs(d);
+  VECTOR share = *p / c->floor, above = VECTOR_MAX(share, VECTOR_ALL(1.0));
+  vector_log(&above, x);
+  *x = VECTOR_SELECT(share >= 1.0, *x, share - 1.0);
 }
 
-double clay_length(const struct clay *c, double pc) { return fmax(pc, 2.0 * c->floor); }
+void clay_pressure(const struct clay *c, const VECTOR *x, VECTOR *p)
+{
+  VECTOR above = VECTOR_MAX(*x, VECTOR_ALL(0.0)), growth;
+  vector_expm1(&above, &growth);
+  *p = c->floor + c->floor * VECTOR_SELECT(*x >= 0.0, growth, *x);
+}
 
-/* The step with what follows from it. Plastic compression hardens, so that pc falls with p as p^-beta. */
+/* Above the floor p/floor = exp x: the logarithmic mean, for close pressures by its series about the geometric one;
+ * from one side of the floor to the other the series of (exp(x) - 1 - x0)/(x - x0), x > 0 > x0. */
+void clay_secant(const struct clay *c, const VECTOR *p0, const VECTOR *x0, const VECTOR *p, const VECTOR *x,
+                 VECTOR *secant)
+{
+  const double close = 1e-2;
+  VECTOR d = *x - *x0, size = VECTOR_ABS(d), high = VECTOR_MAX(*x, *x0), low = VECTOR_MIN(*x, *x0), mean = *p * *p0;
+  VECTOR square = d * d, crossing = high * high / (high - low);
+  vector_sqrt(&mean, &mean);
+  mean *= 1.0 + square / 24.0 * (1.0 + square / 80.0);
+  crossing *= 0.5 + high * (1.0 / 6 + high * (1.0 / 24 + high * (1.0 / 120 + high / 720)));
+  *secant = VECTOR_SELECT(low >= 0.0, mean, c->floor + c->floor * crossing);
+  *secant = VECTOR_SELECT(size > close, (*p - *p0) / d, *secant);
+  *secant = VECTOR_SELECT(high <= 0.0, VECTOR_ALL(c->floor), *secant);
+}
+
+/* The step with what follows from it, in measures: ln(pc/floor) = level - beta x. */
 struct problem {
   const struct clay      *c;
   const struct clay_step *step;
-  double                  x0, beta, log_pc;
-  double                  log_tip, tip; /* ln Pa, Pa: where q = 0 and p is the ellipse's length */
-  bool                    wet;          /* plastic strain compresses */
-  bool                    floored;      /* the tip is the least possible */
+  double                  beta;
+  VECTOR                  x0, level;
+  VECTOR                  tip_x, tip, tip_pc; /* where q = 0, p is the ellipse's length: measure, Pa; pc there */
+  MASK                    wet;                /* plastic strain compresses */
+  MASK                    floored;            /* the tip is the least possible */
 };
 
-/* pc of a step that ends at the measure x */
-static double hardened(const struct problem *b, double x)
-{
-  return exp_cut(b->log_pc - (b->step->change + b->c->kappa * (x - b->x0)) / b->c->plastic);
-}
-
-/* ln of the pressure that is pc over k, above the floor, where pc(p) is a power */
-static double log_of_share(const struct problem *b, double k)
-{
-  double at_floor = b->log_pc - (b->step->change - b->c->kappa * b->x0) / b->c->plastic; /* ln pc at x = 0 */
-  return (at_floor + b->beta * log(b->c->floor) - log(k)) / (1.0 + b->beta);
-}
-
-/* State on the ellipse, and pressure over the bound: on the wet side, p = tip exp(-u^2); on the dry side p = u^2. So q
- * is smooth in u where it vanishes, and no digits are lost there. */
-static double on_ellipse(const struct problem *b, double u, struct clay_state *s)
+/* State on the ellipse, and `beyond` 2 p less its length. On the wet side x = tip_x - u^2, on the dry side u^2 - 1: q
+ * is smooth in u where it vanishes, and loses no digits there. */
+static void on_ellipse(const struct problem *b, const VECTOR *u, struct clay_state *s, VECTOR *beyond)
 {
   const struct clay *c = b->c;
-  double             w = u * u, x, above; /* ellipse's length less p */
-  if (b->wet) {
-    s->p = b->tip * exp(-w);
-    x = b->log_tip - log(c->floor) - w;
-    s->pc = b->floored ? hardened(b, x) : b->tip * exp_cut(b->beta * w);
-    double longer = b->floored ? fmax(s->pc - b->tip, 0.0) : b->tip * expm1(fmin(MOST, b->beta * w));
-    above = longer - b->tip * expm1(-w);
-  } else {
-    s->p = w;
-    x = clay_measure(c, w);
-    s->pc = hardened(b, x);
-    above = clay_length(c, s->pc) - w;
-  }
-  s->q = c->M * sqrt(s->p * fmax(above, 0.0));
-  s->shear = c->shear * b->step->v / c->kappa * clay_secant(c, b->step->p, b->x0, s->p, x);
+  VECTOR             w = *u * *u, dry_x = w - 1.0, x, power, first, second, above, secant;
+  x = VECTOR_SELECT(b->wet, b->tip_x - w, dry_x);
+  power = VECTOR_SELECT(b->wet, -w, VECTOR_MAX(dry_x, VECTOR_ALL(0.0)));
+  vector_expm1(&power, &first);
+  power = VECTOR_SELECT(b->wet, b->beta * w, b->level - b->beta * x);
+  vector_expm1(&power, &second);
+  VECTOR dry_p = c->floor * VECTOR_SELECT(dry_x >= 0.0, 1.0 + first, w), wet_p = b->tip + b->tip * first;
+  VECTOR dry_pc = c->floor + c->floor * second, wet_pc = b->tip_pc + b->tip_pc * second;
+  VECTOR longer = VECTOR_MAX(wet_pc - b->tip, VECTOR_ALL(0.0)), least = VECTOR_ALL(2.0 * c->floor);
+  longer = VECTOR_SELECT(b->floored, longer, b->tip * second) - b->tip * first;
+  above = VECTOR_MAX(dry_pc, least) - dry_p;
+  above = VECTOR_SELECT(b->wet, longer, above);
+  s->p = VECTOR_SELECT(b->wet, wet_p, dry_p);
+  s->pc = VECTOR_SELECT(b->wet, wet_pc, dry_pc);
+  power = s->p * VECTOR_MAX(above, VECTOR_ALL(0.0));
+  vector_sqrt(&power, &s->q);
+  s->q *= c->M;
+  clay_secant(c, &b->step->p, &b->x0, &s->p, &x, &secant);
+  s->shear = c->shear / c->kappa * b->step->v * secant;
   s->compression = -(b->step->change + c->kappa * (x - b->x0)) / b->step->v;
-  return s->p - above; /* 2 p less the length */
-}
-
-/* q of the trial with that shear modulus */
-static double trial_q(const struct clay_step *t, double G)
-{
-  return sqrt(fmax(0.0, 1.5 * (t->ss + 4.0 * G * (t->se + G * t->ee))));
+  *beyond = s->p - above;
 }
 
 /* Flow rule: (q_trial - q)/(3 G) is the plastic shear strain; over the compression it is 2 q over M^2 (2 p - pc). */
-static double flow(const struct problem *b, double u, struct clay_state *s)
+static void flow(const struct problem *b, const VECTOR *u, struct clay_state *s, VECTOR *value)
 {
-  double M = b->c->M, beyond = on_ellipse(b, u, s), lost = trial_q(b->step, s->shear) - s->q;
-  s->plastic = fmax(0.0, lost / (3.0 * s->shear));
-  return lost * beyond * M * M - 6.0 * s->shear * s->q * s->compression;
+  const struct clay_step *t = b->step;
+  double                  M = b->c->M;
+  VECTOR                  beyond, square, trial;
+  on_ellipse(b, u, s, &beyond);
+  square = 1.5 * (t->ss + 4.0 * s->shear * (t->se + s->shear * t->ee));
+  square = VECTOR_MAX(square, VECTOR_ALL(0.0));
+  vector_sqrt(&square, &trial);
+  trial -= s->q;
+  *value = trial * beyond * (M * M) - 6.0 * s->shear * s->q * s->compression;
+  s->plastic = VECTOR_MAX(trial, VECTOR_ALL(0.0)) / (3.0 * s->shear);
 }
 
-/* Root between a and b, where flow has different signs: inverse quadratic steps, halving where those are not safe
- * (Chandrupatla 1997). */
-static void find(const struct problem *problem, double a, double b, struct clay_state *s)
+/* Bracket of a root in every lane. */
+struct bracket {
+  VECTOR a, b, c;    /* latest; on the other side of the root; the one before */
+  VECTOR fa, fb, fc; /* values there */
+  VECTOR t;          /* share of the way from a to b where to look next */
+  VECTOR precision;
+  MASK   open;
+};
+
+/* Takes in the value at x: inverse quadratic steps, halves where those are not safe (Chandrupatla 1997). */
+static void bracket_next(struct bracket *k, const VECTOR *x, const VECTOR *fx)
+{
+  MASK same = ~((MASK)(*fx > 0.0) ^ (MASK)(k->fa > 0.0)), other = k->open & ~same;
+  k->c = VECTOR_SELECT(same, k->a, k->b);
+  k->fc = VECTOR_SELECT(same, k->fa, k->fb);
+  k->b = VECTOR_SELECT(other, k->a, k->b);
+  k->fb = VECTOR_SELECT(other, k->fa, k->fb);
+  k->a = VECTOR_SELECT(k->open, *x, k->a);
+  k->fa = VECTOR_SELECT(k->open, *fx, k->fa);
+  VECTOR width = k->b - k->a, least = k->precision / VECTOR_ABS(width), half = VECTOR_ALL(0.5);
+  k->open &= (MASK)(least <= 0.5) & (MASK)(k->fa != 0.0);
+  VECTOR xi = -width / (k->c - k->b), phi = (k->fa - k->fb) / (k->fc - k->fb), rest = 1.0 - phi;
+  VECTOR ac = (k->c - k->a) / width;
+  VECTOR t = k->fa * (k->fc / ((k->fb - k->fa) * (k->fb - k->fc)) + ac * k->fb / ((k->fc - k->fa) * (k->fc - k->fb)));
+  k->t = VECTOR_SELECT((MASK)(phi * phi < xi) & (MASK)(rest * rest < 1.0 - xi), t, half);
+  k->t = VECTOR_MAX(k->t, least);
+  k->t = VECTOR_MIN(k->t, 1.0 - least);
+}
+
+/* Root of flow between two ends where it has different signs; round-off may spoil that: then one end is the root. */
+static void find(const struct problem *problem, const MASK *outside, const VECTOR *a, const VECTOR *b,
+                 struct clay_state *s)
 {
   enum { STEPS = 100 };
-  double fa = flow(problem, a, s), fb = flow(problem, b, s), t = 0.5, c, fc;
-  if (fa == 0.0 || fb == 0.0 || (fa > 0.0) == (fb > 0.0)) { /* the last: round-off at an end */
-    flow(problem, fabs(fa) <= fabs(fb) ? a : b, s);
-    return;
+  struct bracket k = {.a = *a, .b = *b};
+  VECTOR         x, fx, size_a = VECTOR_ABS(*a), size_b = VECTOR_ABS(*b);
+  flow(problem, a, s, &k.fa);
+  flow(problem, b, s, &k.fb);
+  k.precision = 2.0 * DBL_EPSILON * VECTOR_MAX(size_a, size_b);
+  k.open = *outside & ((MASK)(k.fa > 0.0) ^ (MASK)(k.fb > 0.0)) & (MASK)(k.fa != 0.0) & (MASK)(k.fb != 0.0);
+  k.t = k.fa / (k.fa - k.fb);
+  for (int i = 0; i < STEPS && vector_any(&k.open); i++) {
+    x = k.a + k.t * (k.b - k.a);
+    flow(problem, &x, s, &fx);
+    bracket_next(&k, &x, &fx);
   }
-  for (int i = 0; i < STEPS; i++) {
-    double x = a + t * (b - a), fx = flow(problem, x, s);
-    if ((fx > 0.0) == (fa > 0.0)) {
-      c = a, fc = fa;
-    } else {
-      c = b, b = a;
-      fc = fb, fb = fa;
-    }
-    a = x, fa = fx;
-    double best = fabs(fa) < fabs(fb) ? a : b, least = 2.0 * DBL_EPSILON * fabs(best) / fabs(b - a);
-    if (least > 0.5 || fa == 0.0) break;
-    double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
-    t = 0.5;
-    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
-      t = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
-    t = fmax(least, fmin(1.0 - least, t));
-  }
-  flow(problem, fabs(fa) <= fabs(fb) ? a : b, s);
+  size_a = VECTOR_ABS(k.fa), size_b = VECTOR_ABS(k.fb);
+  x = VECTOR_SELECT(size_a <= size_b, k.a, k.b);
+  flow(problem, &x, s, &fx);
 }
 
-void clay_return(const struct clay *c, const struct clay_step *step, struct clay_state *state)
+void clay_return(const struct clay *c, const struct clay_step *step, const MASK *outside, struct clay_state *state)
 {
-  struct problem b = {.c = c, .step = step, .x0 = clay_measure(c, step->p), .beta = c->kappa / c->plastic};
-  double         x = b.x0 - step->change / c->kappa, trial = clay_pressure(c, x), log_floor = log(c->floor);
-  b.log_pc = log(step->pc);
-  b.wet = 2.0 * trial > clay_length(c, step->pc);
-  b.log_tip = log_of_share(&b, 1.0);
-  b.floored = b.log_tip <= log_floor + log(2.0);
-  b.log_tip = fmin(MOST, fmax(b.log_tip, log_floor + log(2.0)));
-  b.tip = exp(b.log_tip);
-  double critical = fmin(b.log_tip, fmax(log_of_share(&b, 2.0), log_floor));
-  if (b.wet)
-    find(&b, sqrt(fmax(0.0, b.log_tip - log_floor - x)), sqrt(b.log_tip - critical), state);
-  else
-    find(&b, sqrt(fmax(0.0, trial)), exp(0.5 * critical), state);
+  struct problem b = {.c = c, .step = step, .beta = c->kappa / c->plastic};
+  VECTOR zero = VECTOR_ALL(0.0), power, trial_x, trial, length, least = VECTOR_ALL(2.0 * c->floor), critical, from, to;
+  clay_measure(c, &step->p, &b.x0);
+  trial_x = b.x0 - step->change / c->kappa;
+  clay_pressure(c, &trial_x, &trial);
+  length = VECTOR_MAX(step->pc, least);
+  b.wet = (MASK)(2.0 * trial > length);
+  power = step->pc / c->floor;
+  vector_log(&power, &b.level);
+  b.level += b.beta * b.x0 - step->change / c->plastic;
+  b.tip_x = b.level / (1.0 + b.beta);
+  b.floored = (MASK)(b.tip_x <= M_LN2);
+  b.tip_x = VECTOR_MIN(b.tip_x, VECTOR_ALL(EXPONENT_MOST));
+  b.tip_x = VECTOR_MAX(b.tip_x, VECTOR_ALL(M_LN2));
+  clay_pressure(c, &b.tip_x, &b.tip);
+  power = b.level - b.beta * b.tip_x;
+  vector_expm1(&power, &b.tip_pc);
+  b.tip_pc = VECTOR_SELECT(b.floored, c->floor + c->floor * b.tip_pc, b.tip);
+  critical = (b.level - M_LN2) / (1.0 + b.beta);
+  critical = VECTOR_MAX(critical, zero);
+  critical = VECTOR_MIN(critical, b.tip_x);
+  from = VECTOR_SELECT(b.wet, b.tip_x - trial_x, trial_x + 1.0);
+  from = VECTOR_MAX(from, zero);
+  to = VECTOR_SELECT(b.wet, b.tip_x - critical, critical + 1.0);
+  vector_sqrt(&from, &from);
+  vector_sqrt(&to, &to);
+  find(&b, outside, &from, &to, state);
 }

@@ -3,6 +3,7 @@
  *   k = shear_strength [1/S + (1 - 1/S) exp(-3 g/softening_strain)] + hardening_modulus g,   S = sensitivity
  * k is the shear stress at failure in simple shear and plane strain. theory 1.3.3 */
 #include "constitutive/deviator.h"
+#include "constitutive/exponential.h"
 
 struct von_mises {
   struct isotropic elastic;
@@ -25,43 +26,49 @@ static const struct param params[] = {
 enum { PLASTIC_STRAIN, N_HISTORY };
 static const char *const history_names[N_HISTORY] = {"plastic_strain"};
 
-/* the share of the strength that softening can take, and k of a plastic shear strain */
-static double soft_share(const struct von_mises *v) { return 1.0 - 1.0 / v->sensitivity; }
-
+/* k of a plastic shear strain */
 static double strength(const struct von_mises *v, double shear)
 {
-  double lost = v->sensitivity > 1.0 ? soft_share(v) * -expm1(-3.0 * shear / v->softening) : 0.0;
-  return v->strength * (1.0 - lost) + v->hardening * shear;
+  double share = 1.0 - 1.0 / v->sensitivity;
+  return v->strength * (1.0 + share * expm1(-3.0 * shear / v->softening)) + v->hardening * shear;
 }
 
-/* Plastic shear strain of a step that ends on the surface: root x of trial - G x - k(shear + x). It is concave and
- * positive at 0: from the right, Newton's steps stay on the right. */
-static double plastic_step(const struct von_mises *v, double G, double trial, double shear)
+/* Plastic shear strain x of a step that ends on the surface: root of excess = trial - G x - k(shear + x) in the lanes
+ * of the mask. It is concave, and positive at 0 where the trial is outside: from the right, Newton's steps stay on the
+ * right. */
+static void soften(const struct von_mises *v, const MASK *beyond, const VECTOR *trial, const VECTOR *shear,
+                   VECTOR *step)
 {
   enum { STEPS = 60 };
-  double least = v->strength / v->sensitivity + v->hardening * shear;
-  double x = (trial - least) / (G + v->hardening), rate = 3.0 / v->softening;
-  for (int i = 0; i < STEPS && v->sensitivity > 1.0; i++) {
-    double excess = trial - G * x - strength(v, shear + x);
-    double slope = v->strength * soft_share(v) * rate * exp(-rate * (shear + x)) - v->hardening - G;
-    double change = excess / slope;
+  double G = isotropic_shear(&v->elastic), rate = 3.0 / v->softening, soft = v->strength * (1.0 - 1.0 / v->sensitivity);
+  VECTOR x = (*trial - (v->strength - soft) - v->hardening * *shear) / (G + v->hardening), power, lost;
+  power = -rate * *shear;
+  vector_expm1(&power, &lost);
+  *step = VECTOR_ALL(0.0);
+  MASK open = *beyond & (MASK)(*trial > v->strength + soft * lost + v->hardening * *shear);
+  for (int i = 0; i < STEPS && vector_any(&open); i++) {
+    VECTOR total = *shear + x;
+    power = -rate * total;
+    vector_expm1(&power, &lost);
+    VECTOR excess = *trial - G * x - (v->strength + soft * lost + v->hardening * total);
+    VECTOR change = excess / (soft * rate * (1.0 + lost) - v->hardening - G);
     x -= change;
-    if (!(change > 1e-15 * x)) break;
+    *step = VECTOR_SELECT(open, VECTOR_MAX(x, VECTOR_ALL(0.0)), *step);
+    open &= (MASK)(change > 1e-15 * x);
   }
-  return x > 0.0 ? x : 0.0;
 }
 
-/* the same for the lanes `beyond` what is left after all softening; 0 for those that stay elastic */
+/* the same where softening may be absent: a formula; 0 for lanes that stay elastic */
 static void plastic_steps(const struct von_mises *v, const MASK *beyond, const VECTOR *trial, const VECTOR *shear,
                           VECTOR *step)
 {
   double G = isotropic_shear(&v->elastic);
-  VECTOR hard = (*trial - v->strength - v->hardening * *shear) / (G + v->hardening);
-  for (int i = 0; i < LANES && v->sensitivity > 1.0; i++) {
-    hard[i] = 0.0;
-    if ((*beyond)[i] && (*trial)[i] > strength(v, (*shear)[i])) hard[i] = plastic_step(v, G, (*trial)[i], (*shear)[i]);
+  if (v->sensitivity > 1.0) {
+    soften(v, beyond, trial, shear, step);
+    return;
   }
-  *step = VECTOR_SELECT(*beyond, hard, VECTOR_ALL(0.0));
+  *step = (*trial - v->strength - v->hardening * *shear) / (G + v->hardening);
+  *step = VECTOR_SELECT(*beyond, *step, VECTOR_ALL(0.0));
 }
 
 /* Scales the deviators that are beyond the surface. */

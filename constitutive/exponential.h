@@ -1,0 +1,16 @@
+/* Exponential and logarithm of VECTORs, to about one unit in the last place: libm's would go lane by lane. */
+#ifndef CONSTITUTIVE_EXPONENTIAL_H
+#define CONSTITUTIVE_EXPONENTIAL_H
+
+#include "constitutive/vector.h"
+
+/* Exponents beyond are cut, so that squares of the results stay finite. */
+#define EXPONENT_MOST 300.0
+
+/** exp(x) - 1, all digits near zero too. */
+void vector_expm1(const VECTOR *x, VECTOR *result);
+
+/** ln of positive, normal numbers. */
+void vector_log(const VECTOR *x, VECTOR *result);
+
+#endif
