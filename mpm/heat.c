@@ -10,25 +10,20 @@
 #include <math.h>
 #include <string.h>
 
-static const struct material *material_of(const struct scene *scene, int solid)
-{
-  return &scene->materials[scene->solids[solid].material];
-}
-
 /* m2/s; porosity thins conductivity and capacity alike */
 static double diffusivity(const struct material *m) { return m->conductivity / (m->density * m->heat_capacity); }
 
 bool heat_solved(const struct scene *scene)
 {
   for (int s = 0; s < scene->n_solids; s++)
-    if (material_of(scene, s)->heat_capacity > 0) return true;
+    if (scene_material(scene, s)->heat_capacity > 0) return true;
   return false;
 }
 
 bool heat_flows(const struct scene *scene)
 {
   bool conducts = false;
-  for (int s = 0; s < scene->n_solids; s++) conducts = conducts || material_of(scene, s)->conductivity > 0;
+  for (int s = 0; s < scene->n_solids; s++) conducts = conducts || scene_material(scene, s)->conductivity > 0;
   return heat_solved(scene) && (conducts || (mpm_solid_moves(scene) && scene->n_bodies > 1));
 }
 
@@ -75,7 +70,7 @@ enum status mpm_heat_to_nodes(struct sim *sim, double dt)
   clear(sim, m->temperature_nc);
   FOR_RUNS(m->points, g, run, group)
   {
-    double              c = material_of(sim->scene, group)->heat_capacity;
+    double              c = scene_material(sim->scene, group)->heat_capacity;
     struct scatter_args args = {.n = 2,
                                 .factor = {c, c},
                                 .x = m->x_p,
@@ -115,7 +110,7 @@ enum status mpm_conduct_heat(struct sim *sim, double dt)
   m->heat_given = 0;
   FOR_RUNS(m->points, &sim->grid, run, group)
   {
-    const struct material *material = material_of(sim->scene, group);
+    const struct material *material = scene_material(sim->scene, group);
     struct scatter_args    scatter = {.n = 1,
                                       .factor = {material->heat_capacity},
                                       .x = m->x_p,
@@ -184,7 +179,7 @@ enum status mpm_heat_to_points(struct sim *sim, double dt)
   PARALLEL_FOR_DYNAMIC
   for (long r = 0; r < points->n_runs; r++)
     m->run_heat[r] = warm_points(m, points->start[r], points->start[r + 1],
-                                 material_of(sim->scene, (int)(r % points->n_groups))->heat_capacity);
+                                 scene_material(sim->scene, (int)(r % points->n_groups))->heat_capacity);
   for (long r = 0; r < points->n_runs; r++) gained += m->run_heat[r];
   if (heat_has_side(sim->scene, HEAT_TEMPERATURE)) m->now.heat_sides += gained - m->heat_given;
   return OK;
@@ -198,7 +193,7 @@ enum status mpm_heat_by_work(struct sim *sim, double dt)
   const struct points *points = m->points;
   PARALLEL_FOR
   for (long r = 0; r < points->n_runs; r++) {
-    const struct material *own = material_of(sim->scene, (int)(r % points->n_groups));
+    const struct material *own = scene_material(sim->scene, (int)(r % points->n_groups));
     if (own->model->n_history == 0) continue;
     for (long p = points->start[r]; p < points->start[r + 1]; p++)
       m->temperature_p[p] += own->work_to_heat * m->heat_p[p] * m->volume_p[p] / (m->mass_p[p] * own->heat_capacity);
@@ -216,7 +211,7 @@ double mpm_heat_dt(const struct sim *sim)
   enum basis          basis = mpm_of(sim)->kernels->basis;
   double              largest = 0, conductivity = 0, capacity = INFINITY;
   for (int i = 0; i < scene->n_solids; i++) {
-    const struct material *m = material_of(scene, i);
+    const struct material *m = scene_material(scene, i);
     largest = fmax(largest, diffusivity(m));
     conductivity = fmax(conductivity, (1 - m->porosity) * m->conductivity);
     capacity = fmin(capacity, (1 - m->porosity) * m->density * m->heat_capacity);

@@ -91,7 +91,7 @@ void heat_lift(struct sim *sim, struct mpm *m, double t)
     find_slopes(sim, m, side, t);
     FOR_RUNS(m->points, g, run, group)
     {
-      double c = scene->materials[scene->solids[group].material].heat_capacity;
+      double c = scene_material(scene, group)->heat_capacity;
       bool   near = run.corner[d] - BLOCK_MARGIN - 2 <= wall && run.corner[d] + reach >= wall;
       for (long p = run.begin; p < run.end && near; p++) lift_point(g, m, side, p, m->mass_p[p] * c);
     }
@@ -141,7 +141,7 @@ enum status mpm_fill_sides(struct sim *sim, double dt)
   for (int i = 0; i < 2; i++) memset(fields[i], 0, (size_t)sim->grid.size * sizeof(double));
   FOR_RUNS(m->points, &sim->grid, run, group)
   {
-    const struct material *own = &sim->scene->materials[sim->scene->solids[group].material];
+    const struct material *own = scene_material(sim->scene, group);
     struct scatter_args    args = {
            .n = own->conductivity > 0 ? 2 : 1, .x = m->x_p, .weight = m->volume_p, .node = {fields[0], fields[1]}};
     args.factor[1] = (1 - own->porosity) * own->conductivity;

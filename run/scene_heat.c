@@ -49,16 +49,11 @@ const struct value_kind value_side_heat = {
 
 /* ---- whether it fits together ---- */
 
-static const struct material *material_of(const struct scene *scene, int solid)
-{
-  return &scene->materials[scene->solids[solid].material];
-}
-
 /* a material of some solid that has a heat capacity; NULL: heat is not solved */
 static const struct material *find_warm(const struct scene *scene)
 {
   for (int s = 0; s < scene->n_solids; s++)
-    if (material_of(scene, s)->heat_capacity > 0) return material_of(scene, s);
+    if (scene_material(scene, s)->heat_capacity > 0) return scene_material(scene, s);
   return NULL;
 }
 
@@ -66,7 +61,7 @@ static enum status check_capacities(struct reader *reader, const struct scene *s
 {
   const struct material *warm = find_warm(scene);
   for (int s = 0; s < scene->n_solids; s++) {
-    const struct material *m = material_of(scene, s);
+    const struct material *m = scene_material(scene, s);
     snprintf(reader->path, sizeof reader->path, "materials.%s.heat_capacity", m->name);
     if (m->heat_capacity > 0) continue;
     if (m->conductivity > 0)
@@ -81,7 +76,7 @@ static enum status check_capacities(struct reader *reader, const struct scene *s
 static bool conducts(const struct scene *scene)
 {
   for (int s = 0; s < scene->n_solids; s++)
-    if (material_of(scene, s)->conductivity > 0) return true;
+    if (scene_material(scene, s)->conductivity > 0) return true;
   return false;
 }
 
