@@ -357,7 +357,7 @@ static const char *const history_names[] = {"plastic_strain"};
 
 const struct constitutive_model constitutive_mohr_coulomb = {
     .name = "mohr_coulomb",
-    .source = "1, Mohr-Coulomb",
+    .source = "1.3.1",
     .params = params,
     .param_size = sizeof(struct mohr_coulomb),
     .check = check,
