@@ -27,9 +27,10 @@ struct settle {
   struct mpm  *m;
   struct scene scene; /* the scene as it stands still */
   struct kept  kept[N_KEPT];
-  double     **lift;                /* [bodies][size] N along up: weight that the fluid at rest carries */
-  double       up[3], g;            /* m/s2 */
-  double       kinetic, unbalanced; /* J; rms acceleration over that of the weight */
+  double      *lift_p;   /* [points] N along up: weight that the fluid at rest carries; NULL: dry */
+  double     **lift_nc;  /* [bodies][size] the same at the nodes */
+  double       up[3], g; /* m/s2 */
+  double       kinetic;  /* J, of the nodes after the last step */
 };
 
 /* ---- what the solve leaves as it was ---- */
@@ -91,6 +92,7 @@ static void stand_still(const struct sim *sim, struct scene *scene)
     scene->gravity[d] = (struct function){.constant = gravity[d]};
     for (int side = 0; side < SIDES; side++) scene->solid_side[side].velocity[d] = (struct function){0};
   }
+  scene->contact.detection = DETECT_APPROACH; /* places that are held make no overlap */
   if (scene->numerics.transfer == TRANSFER_PIC) scene->numerics.transfer = TRANSFER_FLIP; /* PIC lets nothing swing */
 }
 
@@ -111,69 +113,77 @@ static enum status point_lift(const struct settle *s, long p, double *lift)
 static enum status gather_lift(struct settle *s)
 {
   struct mpm *m = s->m;
-  double     *lift_p;
-  enum status status = OK;
-  TRY(NEW(&s->lift, m->n_bodies));
-  for (int b = 0; b < m->n_bodies; b++) TRY(NEW(&s->lift[b], s->sim->grid.size));
   if (!s->scene.fluid.present) return OK;
-  TRY(NEW(&lift_p, m->points->n));
-  for (long p = 0; p < m->points->n && status == OK; p++) status = point_lift(s, p, &lift_p[p]);
+  TRY(NEW(&s->lift_p, m->points->n));
+  TRY(NEW(&s->lift_nc, m->n_bodies));
+  for (int b = 0; b < m->n_bodies; b++) TRY(NEW(&s->lift_nc[b], s->sim->grid.size));
+  for (long p = 0; p < m->points->n; p++) TRY(point_lift(s, p, &s->lift_p[p]));
   FOR_RUNS(m->points, &s->sim->grid, run, group)
   {
-    struct scatter_args args = {.n = 1, .x = m->x_p, .value = {lift_p}, .node = {s->lift[s->scene.solids[group].body]}};
+    struct scatter_args args = {
+        .n = 1, .x = m->x_p, .value = {s->lift_p}, .node = {s->lift_nc[s->scene.solids[group].body]}};
     if (!scene_material(&s->scene, group)->model->held) m->kernels->scatter(&m->kernel_grid, &run, &args);
   }
-  memory_free(&lift_p);
-  return status;
+  return OK;
 }
 
 /* the fluid's share of the weight, before ghosts are folded */
 static void add_lift(const struct settle *s)
 {
   int dim = s->sim->grid.dim;
-  for (int b = 0; b < s->m->n_bodies; b++)
+  for (int b = 0; b < s->m->n_bodies && s->lift_nc; b++)
     for (long c = 0; c < s->sim->grid.size; c++)
-      for (int d = 0; d < dim; d++) s->m->bodies[b].force_nc[c * dim + d] += s->lift[b][c] * s->up[d];
+      for (int d = 0; d < dim; d++) s->m->bodies[b].force_nc[c * dim + d] += s->lift_nc[b][c] * s->up[d];
 }
 
 /* ---- balance ---- */
 
-static void measure_body(struct settle *s, const struct body_nodes *body, const double *lift, double sum[3])
+/* J of the nodes, with their new velocities */
+static double kinetic_energy(const struct settle *s)
 {
   const struct grid *g = &s->sim->grid;
   struct box         nodes = grid_nodes(g);
-  FOR_BOX_SERIAL(g, nodes, c)
-  {
-    double mass = body->mass_nc[c], gain = 0, square = 0, carried = mass * s->g - lift[c];
-    if (!(mass > s->m->mass_floor)) continue;
-    for (int d = 0; d < g->dim; d++) {
-      double after = body->vel_new_nc[c * g->dim + d], before = body->vel_nc[c * g->dim + d];
-      gain += (after - before) * (after - before);
-      square += after * after;
-    }
-    sum[0] += 0.5 * mass * square;
-    sum[1] += mass * gain / (s->sim->dt * s->sim->dt);
-    sum[2] += carried * carried / mass;
-  }
+  double             twice = 0;
+  for (int b = 0; b < s->m->n_bodies; b++) FOR_BOX_SERIAL(g, nodes, c)
+  for (int d = 0; d < g->dim; d++)
+    twice += s->m->bodies[b].mass_nc[c] * s->m->bodies[b].vel_new_nc[c * g->dim + d] *
+             s->m->bodies[b].vel_new_nc[c * g->dim + d];
+  return 0.5 * twice;
 }
 
-static void measure(struct settle *s)
+/* rms acceleration of points that a step dt has brought from rest to their velocity, over that of their weight */
+static double imbalance(const struct settle *s)
 {
-  double sum[3] = {0};
-  for (int b = 0; b < s->m->n_bodies; b++) measure_body(s, &s->m->bodies[b], s->lift[b], sum);
-  s->kinetic = sum[0];
-  s->unbalanced = sum[2] > 0 ? sqrt(sum[1] / sum[2]) : 0;
+  const struct mpm *m = s->m;
+  int               dim = s->sim->grid.dim;
+  double            found = 0, whole = 0;
+  for (long p = 0; p < m->points->n; p++) {
+    double weight = m->mass_p[p] * s->g - (s->lift_p ? s->lift_p[p] : 0), square = 0;
+    if (scene_material(&s->scene, m->points->group[p])->model->held) continue;
+    for (int d = 0; d < dim; d++) square += m->vel_p[p * dim + d] * m->vel_p[p * dim + d];
+    found += m->mass_p[p] * square / (s->sim->dt * s->sim->dt);
+    whole += weight * weight / m->mass_p[p];
+  }
+  return whole > 0 ? sqrt(found / whole) : 0;
 }
 
-/* stages of the solid in a range of slots, without those that belong to a run: loads, markers of momentum */
+/* what takes part: the mechanics of the solid, without loads */
+static bool takes_part(const struct stage *stage)
+{
+  static enum status (*const parts[])(struct sim *, double) = {
+      mpm_points_to_nodes, mpm_fold_nodes,      mpm_join_bodies,     mpm_advance_nodes,
+      mpm_resolve_contact, mpm_join_velocities, mpm_nodes_to_points, mpm_update_stress};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+    if (stage->run == parts[i]) return true;
+  return false;
+}
+
 static enum status run_stages(struct settle *s, enum slot from, enum slot to)
 {
   for (int i = 0; i < module_mpm.n_stages; i++) {
     const struct stage *stage = &module_mpm.stages[i];
-    if (stage->slot < from || stage->slot > to || stage->slot == SLOT_remap || stage->run == mpm_load_surfaces)
-      continue;
-    if (stage->needed && !stage->needed(s->sim->scene)) continue;
-    TRY(stage->run(s->sim, s->sim->dt));
+    if (stage->slot < from || stage->slot > to || !takes_part(stage)) continue;
+    if (!stage->needed || stage->needed(s->sim->scene)) TRY(stage->run(s->sim, s->sim->dt));
   }
   return OK;
 }
@@ -201,7 +211,7 @@ static enum status advance(struct settle *s)
   TRY(run_stages(s, SLOT_points_to_nodes, SLOT_points_to_nodes));
   add_lift(s);
   TRY(run_stages(s, SLOT_fold, SLOT_nodes));
-  measure(s);
+  s->kinetic = kinetic_energy(s);
   return OK;
 }
 
@@ -230,10 +240,14 @@ static double patience(const struct settle *s)
 /* the balance of the stresses as they are, from rest */
 static enum status judge(struct settle *s)
 {
+  struct mpm_rest *rest = &s->m->rest;
   stop_points(s);
   TRY(advance(s));
-  s->m->rest.unbalanced = s->unbalanced;
-  s->m->rest.settled = s->unbalanced <= s->scene.numerics.rest_tolerance;
+  TRY(run_stages(s, SLOT_nodes_to_points, SLOT_nodes_to_points));
+  rest->unbalanced = imbalance(s);
+  rest->settled = rest->unbalanced <= s->scene.numerics.rest_tolerance;
+  stop_points(s);
+  for (int i = PLACE; i <= MARKERS; i++) bring_back(&s->kept[i]);
   return OK;
 }
 
@@ -270,8 +284,9 @@ static enum status solve(struct settle *s)
 static void destroy(struct settle *s)
 {
   for (int i = 0; i < N_KEPT; i++) memory_free(&s->kept[i].start);
-  for (int b = 0; b < s->m->n_bodies && s->lift; b++) memory_free(&s->lift[b]);
-  memory_free(&s->lift);
+  for (int b = 0; b < s->m->n_bodies && s->lift_nc; b++) memory_free(&s->lift_nc[b]);
+  memory_free(&s->lift_nc);
+  memory_free(&s->lift_p);
 }
 
 enum status mpm_settle(struct sim *sim, struct mpm *m)
