@@ -294,7 +294,9 @@ static void exchange_all(const struct sim *sim, struct mpm *m)
   const struct contact_state *c = m->contact;
   m->now.contact = 0;
   for (long k = 0; k < c->n; k++) {
-    m->now.friction += exchange(sim, m, &c->meetings[k]);
+    double work = exchange(sim, m, &c->meetings[k]);
+    m->now.friction += work;
+    if (m->heat_source_nc) m->heat_source_nc[c->meetings[k].node] += work;
     m->now.contact += stored(sim, m, &c->meetings[k]);
   }
 }

@@ -47,6 +47,7 @@ static bool smooth_usl(const struct scene *sc) { return smooth(sc) && sc->numeri
 static bool smooth_musl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
 static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0 && !heat_solved(sc); }
 static bool working(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0 && heat_solved(sc); }
+static bool touching_cold(const struct scene *sc) { return touching(sc) && !heat_solved(sc); }
 static bool rubbing(const struct scene *sc) { return touching(sc) && heat_solved(sc); }
 static bool quiet(const struct scene *sc) { return heat_flows(sc) && !rubbing(sc); }
 static bool fluxed(const struct scene *sc) { return heat_flows(sc) && heat_has_side(sc, HEAT_FLUX); }
@@ -90,8 +91,11 @@ static const struct stage stages[] = {
      "only when numerics.mpm.damping is above 0", damped, mpm_damp_nodes, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
      mpm_solid_moves, mpm_advance_nodes, NULL},
-    {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_new_nc", "vel_new_nc", "3.4",
-     "only when bodies are in contact", touching, mpm_resolve_contact, NULL},
+    {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc", "vel_new_nc", "3.4",
+     "only when bodies are in contact, no heat", touching_cold, mpm_resolve_contact, NULL},
+    {"mpm.resolve_contact_and_warm", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc heat_source_nc",
+     "vel_new_nc heat_source_nc", "3.4", "only when bodies are in contact, with heat", rubbing, mpm_resolve_contact,
+     NULL},
     {"mpm.join_velocities", SLOT_nodes, "mass_nc vel_new_nc", "vel_new_nc", "3.4", "only when bodies are in contact",
      touching, mpm_join_velocities, NULL},
     {"mpm.smooth_strain", SLOT_nodes, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, usl", smooth_usl,

@@ -48,6 +48,21 @@ START_TEST(friction_slows)
 }
 END_TEST
 
+/* what friction takes is found as heat */
+START_TEST(friction_heats)
+{
+  const char      *sets[] = {"materials.stone.heat_capacity=800", "materials.stone.conductivity=2", NULL};
+  struct scene_run run;
+  scene_open_with(SLAB_ON_SLAB, sets, &run);
+  while (run.sim->t < 0.05) scene_step(&run, INFINITY);
+  struct ledger now = scene_ledger(&run);
+  double        gained = now.v[LEDGER_heat] - run.sim->ledger_start.v[LEDGER_heat];
+  ck_assert_double_gt(now.v[LEDGER_friction], 1);
+  ck_assert_double_eq_tol(gained, now.v[LEDGER_friction], 1e-12 * now.v[LEDGER_heat]);
+  scene_close(&run);
+}
+END_TEST
+
 START_TEST(without_friction_it_slides)
 {
   const char      *sets[] = {"contact.friction=0", NULL};
@@ -141,6 +156,7 @@ int main(void)
   TCase *bodies = tcase_create("bodies");
   tcase_set_timeout(bodies, 60);
   tcase_add_loop_test(bodies, friction_slows, 0, 3);
+  tcase_add_test(bodies, friction_heats);
   tcase_add_test(bodies, without_friction_it_slides);
   tcase_add_test(bodies, infinite_friction_sticks);
   tcase_add_test(bodies, cradle);
