@@ -84,21 +84,34 @@ void points_wrap(const struct grid *g, long n, double *x)
   }
 }
 
+/* whether one of n points lies outside [low, high) in cells; x [n][dim]. dim is a constant where this is called */
+static inline bool strayed(const struct grid *g, int dim, long n, const double *x, const double *low,
+                           const double *high)
+{
+  double inverse_h = 1 / g->h;
+  long   out = 0;
+  for (long q = 0; q < n; q++)
+    for (int d = 0; d < dim; d++) {
+      double s = (x[q * dim + d] - g->min[d]) * inverse_h;
+      out |= !((s >= low[d]) & (s < high[d]));
+    }
+  return out;
+}
+
 bool points_need_sort(const struct grid *g, const struct points *p, const double *x)
 {
-  int    need = 0, dim = g->dim;
-  double inverse_h = 1 / g->h;
+  int need = 0;
   PARALLEL_FOR
   for (long block = 0; block < p->n_blocks; block++) {
-    int corner[3], out = 0;
+    int    corner[3];
+    double low[3] = {0}, high[3] = {0};
+    long   first = p->start[block * p->n_groups], n = p->start[(block + 1) * p->n_groups] - first;
     points_block_corner(p, block, corner);
-    for (long q = p->start[block * p->n_groups]; q < p->start[(block + 1) * p->n_groups]; q++)
-      for (int d = 0; d < dim; d++) {
-        double s = (x[q * dim + d] - g->min[d]) * inverse_h - corner[d];
-        out |=
-            !(s >= -BLOCK_MARGIN && s < p->block_edge + BLOCK_MARGIN && s + corner[d] < g->n[d] && s + corner[d] >= 0);
-      }
-    if (out) {
+    for (int d = 0; d < g->dim; d++) {
+      low[d] = fmax(corner[d] - BLOCK_MARGIN, 0);
+      high[d] = fmin(corner[d] + p->block_edge + BLOCK_MARGIN, g->n[d]);
+    }
+    if (g->dim == 3 ? strayed(g, 3, n, x + 3 * first, low, high) : strayed(g, 2, n, x + 2 * first, low, high)) {
 #pragma omp atomic write
       need = 1;
     }

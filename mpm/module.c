@@ -6,7 +6,6 @@
 
 #include "constitutive/constitutive.h"
 #include "core/memory.h"
-#include "core/tensor.h"
 
 bool mpm_solid_moves(const struct scene *scene)
 {
@@ -151,7 +150,7 @@ static enum status create(struct sim *sim, void *state)
   kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
   TRY(mpm_create_bodies(sim, m));
   struct box all = grid_all(&sim->grid);
-  TRY(NEW(&m->run_speed, RUN_SPEEDS * m->points->n_runs));
+  TRY(NEW(&m->run_seen, N_SEEN * m->points->n_runs));
   TRY(NEW(&m->row_work, box_rows(&all)));
   TRY(mpm_create_points(sim, m));
   TRY(mpm_start_stress(sim, m));
@@ -169,7 +168,7 @@ static enum status create(struct sim *sim, void *state)
 static void destroy(void *state)
 {
   struct mpm *m = state;
-  memory_free(&m->run_speed);
+  memory_free(&m->run_seen);
   memory_free(&m->row_work);
   memory_free(&m->run_heat);
   memory_free(&m->marker_end);
@@ -198,24 +197,6 @@ static void measure_motion(const struct sim *sim, const struct mpm *m, long p, s
   l->v[LEDGER_kinetic_solid] += 0.5 * mass * square;
 }
 
-/* Velocities live half a step before positions and stresses (kick, then drift). Energies are all counted at the time of
- * the velocities: from elastic and potential energy half a step of their rate is taken back, else the sum would swing
- * by omega dt/2. */
-static double half_step_power(const struct sim *sim, const struct mpm *m, const double gravity[3], long p)
-{
-  int    dim = sim->grid.dim;
-  double power = 0;
-  if (sim->step == 0) return 0;
-  for (int d = 0; d < dim; d++) {
-    power -= m->mass_p[p] * gravity[d] * m->vel_p[p * dim + d];
-    for (int e = 0; e < dim; e++) {
-      static const int symmetric[3][3] = {{XX, XY, XZ}, {XY, YY, YZ}, {XZ, YZ, ZZ}};
-      power += m->volume_p[p] * m->stress_p[6 * p + symmetric[d][e]] * m->gradv_p[(p * dim + d) * dim + e];
-    }
-  }
-  return 0.5 * sim->dt * power;
-}
-
 void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double gravity[3], long p, struct ledger *l)
 {
   const struct material *material = scene_material(sim->scene, m->points->group[p]);
@@ -232,16 +213,27 @@ void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double 
   measure_motion(sim, m, p, l);
 }
 
+/* Velocities live half a step before positions and stresses (kick, then drift). Energies are all counted at the time of
+ * the velocities: from elastic and potential energy half a step of their rate is taken back, else the sum would swing
+ * by omega dt/2. */
+static double half_step_work(const struct sim *sim, const struct mpm *m, const double gravity[3])
+{
+  int    dim = sim->grid.dim;
+  double power = m->now.power;
+  if (sim->step == 0) return 0;
+  for (long p = 0; p < m->points->n && m->moves; p++)
+    for (int d = 0; d < dim && !scene_material(sim->scene, m->points->group[p])->model->held; d++)
+      power -= m->mass_p[p] * gravity[d] * m->vel_p[p * dim + d];
+  return 0.5 * sim->dt * power;
+}
+
 static void measure(const struct sim *sim, struct ledger *l)
 {
   const struct mpm *m = mpm_of(sim);
   double            gravity[3];
   sim_gravity(sim, sim->t, gravity);
-  for (long p = 0; p < m->points->n && m->mass_p; p++) {
-    mpm_measure_point(sim, m, gravity, p, l);
-    if (!scene_material(sim->scene, m->points->group[p])->model->held)
-      l->v[LEDGER_elastic] -= half_step_power(sim, m, gravity, p);
-  }
+  for (long p = 0; p < m->points->n && m->mass_p; p++) mpm_measure_point(sim, m, gravity, p, l);
+  l->v[LEDGER_elastic] -= half_step_work(sim, m, gravity);
   l->v[LEDGER_work_loads] += m->now.work_loads;
   l->v[LEDGER_plastic] += m->now.plastic;
   l->v[LEDGER_friction] += m->now.friction;

@@ -53,6 +53,7 @@ struct mpm {
   double                mass_floor;  /* kg: a node with less has no velocity */
   struct mpm_numbers {
     double wave_speed, speed; /* m/s, largest of all points, of the last step */
+    double power;             /* W that the stresses of the last step take up */
     double work_loads;        /* J, since the start */
     double plastic;           /* J lost to plastic flow, since the start */
     double friction;          /* J lost to friction, since the start */
@@ -62,7 +63,7 @@ struct mpm {
 
     struct mpm_strays strays;
   } now;
-  double *run_speed;          /* [n_runs][3] what they were made of: speeds, and the plastic work of the step */
+  double *run_seen;           /* [n_runs][N_SEEN] what they were made of */
   double *row_work;           /* [rows of nodes] J, scratch of sums over nodes */
   double *run_heat;           /* [n_runs] J, gained by points in the step */
   double  heat_given;         /* J that sides with a flux, and sources, gave in the step */

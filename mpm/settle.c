@@ -304,7 +304,6 @@ enum status mpm_settle(struct sim *sim, struct mpm *m)
   sim->t = t;
   for (int i = VEL; i <= AFFINE; i++) bring_back(&s.kept[i]);
   m->now = (struct mpm_numbers){0}; /* nothing was done yet, and nothing lost */
-  memset(m->run_speed, 0, (size_t)(RUN_SPEEDS * m->points->n_runs) * sizeof(double));
   destroy(&s);
   return status;
 }

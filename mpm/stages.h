@@ -4,8 +4,9 @@
 
 #include "mpm/mpm.h"
 
-/* what a run of points reports after a stress update: wave speed, speed, plastic work */
-enum { RUN_SPEEDS = 3 };
+/* what a run of points reports after a stress update: largest wave speed and speed (m/s), plastic work of the step (J),
+ * power of the stress (W), points that could not be strained */
+enum { SEEN_WAVE, SEEN_SPEED, SEEN_PLASTIC, SEEN_POWER, SEEN_BAD, N_SEEN };
 
 enum status mpm_sort_points(struct sim *sim, double dt);
 enum status mpm_points_to_nodes(struct sim *sim, double dt);

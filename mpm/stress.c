@@ -7,26 +7,39 @@
 
 #include <string.h>
 
-enum { BATCH = 64, MAX_HISTORY = 16 };
+enum { MAX_HISTORY = 16 };
 
-/* a dim x dim matrix as 3 x 3, one on the rest of the diagonal (plane strain) */
-static inline void widen(int dim, const double *a, double b[9])
+/* Points [first, first + n) of one material, n <= POINT_BATCH. */
+struct batch {
+  const struct scene    *scene;
+  const struct material *material;
+  long                   first;
+  int                    n;
+};
+
+/* dF = I + dt grad v as 3 x 3, nothing happens across the plane in 2D; volume <- det dF volume. gradv [n][dim][dim] */
+static void strain_batch(int dim, double dt, int n, const double *gradv, double (*dF)[9], double *volume)
 {
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) b[3 * i + j] = i < dim && j < dim ? a[i * dim + j] : i == j;
+  for (int i = 0; i < n && dim == 2; i++) {
+    const double *L = gradv + i * 4;
+    double        own[9] = {1 + dt * L[0], dt * L[1], 0, dt * L[2], 1 + dt * L[3], 0, 0, 0, 1};
+    volume[i] *= own[0] * own[4] - own[1] * own[3];
+    memcpy(dF[i], own, sizeof own);
+  }
+  for (int i = 0; i < n && dim == 3; i++) {
+    for (int q = 0; q < 9; q++) dF[i][q] = dt * gradv[i * 9 + q] + (q % 4 == 0);
+    volume[i] *= tensor_determinant(dF[i]);
+  }
 }
 
-/* dF = I + dt grad v; F <- dF F; volume <- det dF volume */
-static void strain_batch(struct mpm *m, int dim, double dt, long p0, int n, double (*dF)[9], double (*F)[9])
+/* F <- dF F, and as 3 x 3 into wide; own [n][dim][dim] */
+static void deform_batch(int dim, int n, double (*dF)[9], double *own, double (*wide)[9])
 {
   for (int i = 0; i < n; i++) {
-    double *own = m->F_p + (p0 + i) * dim * dim, step[9];
-    for (int q = 0; q < dim * dim; q++) step[q] = dt * m->gradv_p[(p0 + i) * dim * dim + q] + (q % (dim + 1) == 0);
-    widen(dim, step, dF[i]);
-    widen(dim, own, F[i]);
-    tensor_product(dF[i], F[i], F[i]);
-    for (int q = 0; q < dim * dim; q++) own[q] = F[i][q / dim * 3 + q % dim];
-    m->volume_p[p0 + i] *= tensor_determinant(dF[i]);
+    double *F = own + i * dim * dim;
+    for (int q = 0; q < 9; q++) wide[i][q] = q / 3 < dim && q % 3 < dim ? F[q / 3 * dim + q % 3] : q % 4 == 0;
+    tensor_product(dF[i], wide[i], wide[i]);
+    for (int q = 0; q < dim * dim; q++) F[q] = wide[i][q / dim * 3 + q % dim];
   }
 }
 
@@ -37,75 +50,110 @@ static void copy_history(int n, int from_width, const double *from, int to_width
   for (int i = 0; i < n; i++) memcpy(to + (long)i * to_width, from + (long)i * from_width, (size_t)least * sizeof *to);
 }
 
-/* what a run of points adds to the state: largest wave speed and speed (m/s), plastic work of the step (J) */
-static void survey(const struct mpm *m, const struct material *material, int dim, long p0, int n, const double *history,
-                   double seen[RUN_SPEEDS])
+/* history of the batch as its law wants it: the array of the scene, or a copy in `own` where that is wider; NULL: none
+ */
+static double *law_history(const struct mpm *m, const struct batch *b, double *own)
 {
-  double rb[BATCH];
-  for (int i = 0; i < n; i++) {
-    double v2 = 0;
-    for (int d = 0; d < dim; d++) v2 += m->vel_p[(p0 + i) * dim + d] * m->vel_p[(p0 + i) * dim + d];
-    rb[i] = m->mass_p[p0 + i] / m->volume_p[p0 + i];
-    seen[1] = fmax(seen[1], sqrt(v2));
+  int     width = b->material->model->n_history, all_width = b->scene->n_history;
+  double *all = m->history_p ? m->history_p + b->first * all_width : NULL;
+  if (width == 0 || width == all_width) return width == 0 ? NULL : all;
+  copy_history(b->n, all_width, all, width, own);
+  return own;
+}
+
+static void store_history(struct mpm *m, const struct batch *b, const double *history)
+{
+  int     width = b->material->model->n_history, all_width = b->scene->n_history;
+  double *all = m->history_p ? m->history_p + b->first * all_width : NULL;
+  if (history && history != all) copy_history(b->n, width, history, all_width, all);
+}
+
+/* stress : grad v, W/m3 */
+static inline double stress_power(int dim, const double *s, const double *L)
+{
+  if (dim == 2) return s[XX] * L[0] + s[YY] * L[3] + s[XY] * (L[1] + L[2]);
+  return s[XX] * L[0] + s[YY] * L[4] + s[ZZ] * L[8] + s[XY] * (L[1] + L[3]) + s[YZ] * (L[5] + L[7]) +
+         s[XZ] * (L[2] + L[6]);
+}
+
+/* largest speeds of a batch; history of its law, NULL: none */
+static void survey_speeds(const struct mpm *m, const struct batch *b, const double *history, double *seen)
+{
+  const struct constitutive_model *model = b->material->model;
+  int                              dim = b->scene->dim;
+  const double                    *vel = m->vel_p + b->first * dim;
+  double                           rb[POINT_BATCH], most = 0;
+  for (int i = 0; i < b->n; i++) {
+    double v2 = dim == 2 ? vel[2 * i] * vel[2 * i] + vel[2 * i + 1] * vel[2 * i + 1]
+                         : vel[3 * i] * vel[3 * i] + vel[3 * i + 1] * vel[3 * i + 1] + vel[3 * i + 2] * vel[3 * i + 2];
+    most = v2 > most ? v2 : most;
+    rb[i] = m->mass_p[b->first + i] / m->volume_p[b->first + i];
   }
-  seen[0] = fmax(seen[0], material->model->wave_speed(material->model_params, n, rb, m->stress_p + p0 * 6, history));
+  double wave = model->wave_speed(b->material->model_params, b->n, rb, m->stress_p + b->first * 6, history);
+  seen[SEEN_SPEED] = fmax(seen[SEEN_SPEED], sqrt(most));
+  seen[SEEN_WAVE] = fmax(seen[SEEN_WAVE], wave);
 }
 
-static int update_batch(struct mpm *m, const struct scene *scene, const struct material *material, double dt, long p0,
-                        int n, double seen[RUN_SPEEDS])
+static void update_batch(struct mpm *m, const struct batch *b, double dt, const double *gradv, double *seen)
 {
-  const struct constitutive_model *model = material->model;
-  double                           dF[BATCH][9], F[BATCH][9], work[BATCH], own[BATCH * MAX_HISTORY], *history = NULL;
-  double                          *all = m->history_p ? m->history_p + p0 * scene->n_history : NULL;
-  strain_batch(m, scene->dim, dt, p0, n, dF, F);
-  if (model->n_history > 0) history = model->n_history == scene->n_history ? all : own;
-  if (history == own) copy_history(n, scene->n_history, all, model->n_history, own);
-  int bad = model->update(material->model_params, n, dt, dF[0], F[0], m->stress_p + p0 * 6, history,
-                          model->n_history > 0 ? work : NULL);
-  if (history == own) copy_history(n, model->n_history, own, scene->n_history, all);
-  for (int i = 0; i < n && history; i++) seen[2] += work[i] * m->volume_p[p0 + i];
-  if (history && m->heat_p) memcpy(m->heat_p + p0, work, (size_t)n * sizeof *work);
-  survey(m, material, scene->dim, p0, n, history, seen);
-  return bad;
+  const struct constitutive_model *model = b->material->model;
+  int                              dim = b->scene->dim;
+  double  dF[POINT_BATCH][9], F[POINT_BATCH][9], own[POINT_BATCH * MAX_HISTORY], work[POINT_BATCH], power = 0;
+  double *volume = m->volume_p + b->first, *stress = m->stress_p + b->first * 6, *history = law_history(m, b, own);
+  strain_batch(dim, dt, b->n, gradv, dF, volume);
+  if (m->F_p) deform_batch(dim, b->n, dF, m->F_p + b->first * dim * dim, F);
+  seen[SEEN_BAD] +=
+      model->update(b->material->model_params, b->n, dt, dF[0], F[0], stress, history, history ? work : NULL);
+  store_history(m, b, history);
+  for (int i = 0; i < b->n && history; i++) seen[SEEN_PLASTIC] += work[i] * volume[i];
+  if (history && m->heat_p) memcpy(m->heat_p + b->first, work, (size_t)b->n * sizeof *work);
+  for (int i = 0; i < b->n; i++) power += volume[i] * stress_power(dim, stress + 6 * i, gradv + i * dim * dim);
+  seen[SEEN_POWER] += power;
+  survey_speeds(m, b, history, seen);
 }
 
-static void reduce_speeds(struct mpm *m)
+/* what the runs have seen, into the state; the step's stage fails where points could not be strained */
+static enum status reduce_seen(const struct sim *sim, struct mpm *m)
 {
-  m->now.wave_speed = m->now.speed = 0;
+  double bad = 0;
+  m->now.wave_speed = m->now.speed = m->now.power = 0;
   for (long r = 0; r < m->points->n_runs; r++) {
-    const double *seen = m->run_speed + RUN_SPEEDS * r;
-    m->now.wave_speed = fmax(m->now.wave_speed, seen[0]);
-    m->now.speed = fmax(m->now.speed, seen[1]);
-    m->now.plastic += seen[2];
+    const double *seen = m->run_seen + N_SEEN * r;
+    m->now.wave_speed = fmax(m->now.wave_speed, seen[SEEN_WAVE]);
+    m->now.speed = fmax(m->now.speed, seen[SEEN_SPEED]);
+    m->now.plastic += seen[SEEN_PLASTIC];
+    m->now.power += seen[SEEN_POWER];
+    bad += seen[SEEN_BAD];
   }
+  if (bad > 0)
+    return FAIL(ERR_DIVERGED, "mpm: %.0f points could not be strained at t = %g s; lower numerics.dt_factor", bad,
+                sim->t);
+  if (!(m->now.speed < INFINITY))
+    return FAIL(ERR_DIVERGED, "mpm: a solid point's velocity is not finite at t = %g s; lower numerics.dt_factor",
+                sim->t);
+  return OK;
+}
+
+/* the batch of a run that starts at point p; it is empty where nothing is strained */
+static struct batch batch_of(const struct sim *sim, const struct points *points, long r, long p)
+{
+  const struct material *material = scene_material(sim->scene, (int)(r % points->n_groups));
+  long                   left = material->model->held ? 0 : points->start[r + 1] - p;
+  return (struct batch){sim->scene, material, p, left < POINT_BATCH ? (int)left : POINT_BATCH};
 }
 
 enum status mpm_update_stress(struct sim *sim, double dt)
 {
   struct mpm    *m = mpm_of(sim);
   struct points *points = m->points;
-  long           bad = 0;
+  int            n = sim->grid.dim * sim->grid.dim;
+  memset(m->run_seen, 0, (size_t)(N_SEEN * points->n_runs) * sizeof *m->run_seen);
   PARALLEL_FOR_DYNAMIC
-  for (long r = 0; r < points->n_runs; r++) {
-    const struct material *material = scene_material(sim->scene, (int)(r % points->n_groups));
-    double                *seen = m->run_speed + RUN_SPEEDS * r;
-    memset(seen, 0, RUN_SPEEDS * sizeof *seen);
-    if (material->model->held) continue;
-    for (long p = points->start[r]; p < points->start[r + 1]; p += BATCH) {
-      long left = points->start[r + 1] - p;
-      int  failed = update_batch(m, sim->scene, material, dt, p, left < BATCH ? (int)left : BATCH, seen);
-#pragma omp atomic
-      bad += failed;
-    }
-  }
-  if (bad)
-    return FAIL(ERR_DIVERGED, "mpm: %ld points could not be strained at t = %g s; lower numerics.dt_factor", bad,
-                sim->t);
-  reduce_speeds(m);
-  if (!(m->now.speed < INFINITY))
-    return FAIL(ERR_DIVERGED, "mpm: a solid point's velocity is not finite at t = %g s; lower numerics.dt_factor",
-                sim->t);
-  return OK;
+  for (long r = 0; r < points->n_runs; r++)
+    for (struct batch b = batch_of(sim, points, r, points->start[r]); b.n > 0;
+         b = batch_of(sim, points, r, b.first + b.n))
+      update_batch(m, &b, dt, m->gradv_p + b.first * n, m->run_seen + N_SEEN * r);
+  return reduce_seen(sim, m);
 }
 
 double mpm_basis_step(const struct scene *scene)
@@ -128,19 +176,15 @@ double mpm_stress_dt(const struct sim *sim)
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m)
 {
   struct points *points = m->points;
-  for (long r = 0; r < points->n_runs; r++) {
-    const struct material *material = scene_material(sim->scene, (int)(r % points->n_groups));
-    if (material->model->held) continue;
-    for (long p = points->start[r]; p < points->start[r + 1]; p += BATCH) {
-      long   left = points->start[r + 1] - p;
-      int    n = left < BATCH ? (int)left : BATCH, width = material->model->n_history;
-      double own[BATCH * MAX_HISTORY], *all = m->history_p ? m->history_p + p * sim->scene->n_history : NULL;
-      if (material->model->start) material->model->start(material->model_params, n, m->stress_p + p * 6, own);
-      if (material->model->start) copy_history(n, width, own, sim->scene->n_history, all);
-      if (width > 0) copy_history(n, sim->scene->n_history, all, width, own);
-      survey(m, material, sim->grid.dim, p, n, width > 0 ? own : NULL, m->run_speed + RUN_SPEEDS * r);
+  memset(m->run_seen, 0, (size_t)(N_SEEN * points->n_runs) * sizeof *m->run_seen);
+  for (long r = 0; r < points->n_runs; r++)
+    for (struct batch b = batch_of(sim, points, r, points->start[r]); b.n > 0;
+         b = batch_of(sim, points, r, b.first + b.n)) {
+      const struct constitutive_model *model = b.material->model;
+      double                           own[POINT_BATCH * MAX_HISTORY], *history = law_history(m, &b, own);
+      if (model->start) model->start(b.material->model_params, b.n, m->stress_p + b.first * 6, history);
+      store_history(m, &b, history);
+      survey_speeds(m, &b, history, m->run_seen + N_SEEN * r);
     }
-  }
-  reduce_speeds(m);
-  return OK;
+  return reduce_seen(sim, m);
 }

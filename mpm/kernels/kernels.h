@@ -14,9 +14,9 @@ struct kernel_grid {
   bool        modified[SIDES]; /* boundary-modified splines at this wall: ghost weights are folded into the basis */
 };
 
-/* Points [begin, end) of one block; corner: lower cell of the block. */
+/* Points [begin, end) of one block; corner: lower cell of the block; index: number of the run in the set. */
 struct kernel_run {
-  long begin, end;
+  long begin, end, index;
   int  corner[3];
 };
 
@@ -28,13 +28,18 @@ struct p2g_args {
   double       *mass_nc, *mom_nc, *force_nc;
 };
 
+enum { POINT_BATCH = 64 };
+
 /* Nodes to points. vel_old_nc, vel_nc [size][DIM]; beta: share of the nodal velocity, T(30); moves x, displacement
  * (NULL: not wanted) by the nodal velocity; affine, gradv [n][DIM][DIM], gradv 1/s row i column j = dv_i/dx_j; NULL:
- * not wanted. */
+ * not wanted. strain (NULL: not wanted) is called with the gradients of every n <= POINT_BATCH points from p on while
+ * they are in L1. */
 struct g2p_args {
   double        dt, beta;
   const double *vel_old_nc, *vel_nc;
   double       *x, *displacement, *vel, *affine, *gradv;
+  void (*strain)(void *context, long p, int n, const double *gradv);
+  void *context;
 };
 
 enum { LANES = 8 }; /* scalars that one call of scatter or gather can carry */

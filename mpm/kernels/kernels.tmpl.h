@@ -116,7 +116,9 @@ static inline void affine_matrix(const struct kernel_grid *kg, const struct sten
   }
 }
 
-static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p)
+/* gradv [DIM][DIM]: where this point's goes */
+static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p,
+                             double *gradv)
 {
   struct stencil s;
   struct motion  now;
@@ -124,7 +126,7 @@ static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args
   stencil_at(kg, x, &s);
   gather_motion(tile_at(t, &s), &s, &now);
   if (a->affine) affine_matrix(kg, &s, x, &now, a->affine + p * DIM * DIM);
-  if (a->gradv) memcpy(a->gradv + p * DIM * DIM, now.gradient, sizeof now.gradient);
+  memcpy(gradv, now.gradient, sizeof now.gradient);
   for (int d = 0; d < DIM; d++) {
     vel[d] = a->beta * now.vel[d] + (1 - a->beta) * (vel[d] + now.change[d]);
     x[d] += a->dt * now.vel[d];
@@ -143,7 +145,12 @@ static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, cons
     row[i % DIM][i / DIM] = vel;
     row[DIM + i % DIM][i / DIM] = vel - a->vel_old_nc[node * DIM + i];
   }
-  for (long p = run->begin; p < run->end; p++) g2p_point(kg, a, &t, p);
+  for (long p = run->begin; p < run->end; p += POINT_BATCH) {
+    int    n = run->end - p < POINT_BATCH ? (int)(run->end - p) : POINT_BATCH;
+    double own[POINT_BATCH * DIM * DIM], *gradv = a->gradv ? a->gradv + p * DIM * DIM : own;
+    for (int i = 0; i < n; i++) g2p_point(kg, a, &t, p + i, gradv + i * DIM * DIM);
+    if (a->strain) a->strain(a->context, p, n, gradv);
+  }
 }
 
 static inline void scatter_point(const struct kernel_grid *kg, const struct scatter_args *a, struct tile *t, long p)
