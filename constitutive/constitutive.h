@@ -33,6 +33,7 @@ struct constitutive_model {
   /** Pa: constrained (oedometer) modulus at the start, and the ratio of lateral to vertical effective stress at rest.
    */
   double (*oedometer_modulus)(const void *prm);
+  double (*shear_modulus)(const void *prm); /* Pa, at the start; NULL: the law is held */
   double (*lateral_ratio)(const void *prm);
 };
 

@@ -257,5 +257,6 @@ const struct constitutive_model constitutive_drucker_prager = {
     .energy = energy,
     .yield = yield,
     .oedometer_modulus = isotropic_oedometer,
+    .shear_modulus = isotropic_shear_modulus,
     .lateral_ratio = lateral_ratio,
 };

@@ -30,6 +30,9 @@ static inline double isotropic_bulk(const struct isotropic *e) { return e->young
 /** Pa: constrained modulus lambda + 2 mu. */
 static inline double isotropic_oedometer(const void *prm) { return isotropic_lambda(prm) + 2.0 * isotropic_shear(prm); }
 
+/** Pa: shear modulus, as a law gives it. */
+static inline double isotropic_shear_modulus(const void *prm) { return isotropic_shear(prm); }
+
 /** Lateral over vertical stress without lateral strain: nu/(1 - nu). */
 static inline double isotropic_lateral(const void *prm)
 {

@@ -33,5 +33,6 @@ const struct constitutive_model constitutive_linear_elastic = {
     .wave_speed = isotropic_wave_speed,
     .energy = isotropic_energy,
     .oedometer_modulus = isotropic_oedometer,
+    .shear_modulus = isotropic_shear_modulus,
     .lateral_ratio = isotropic_lateral,
 };

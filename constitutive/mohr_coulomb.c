@@ -368,5 +368,6 @@ const struct constitutive_model constitutive_mohr_coulomb = {
     .energy = isotropic_energy,
     .yield = yield,
     .oedometer_modulus = isotropic_oedometer,
+    .shear_modulus = isotropic_shear_modulus,
     .lateral_ratio = lateral_ratio,
 };

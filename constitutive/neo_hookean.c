@@ -106,5 +106,6 @@ const struct constitutive_model constitutive_neo_hookean = {
     .wave_speed = wave_speed,
     .energy = energy,
     .oedometer_modulus = isotropic_oedometer,
+    .shear_modulus = isotropic_shear_modulus,
     .lateral_ratio = isotropic_lateral,
 };

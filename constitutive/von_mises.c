@@ -136,5 +136,6 @@ const struct constitutive_model constitutive_von_mises = {
     .energy = isotropic_energy,
     .yield = yield,
     .oedometer_modulus = isotropic_oedometer,
+    .shear_modulus = isotropic_shear_modulus,
     .lateral_ratio = lateral_ratio,
 };

@@ -58,11 +58,12 @@ struct fluid {
 };
 
 /* what a side does to the solid or to the fluid */
-enum side_kind { SIDE_SLIP, SIDE_NO_SLIP, SIDE_SYMMETRY, SIDE_VELOCITY, SIDE_PRESSURE, SIDE_OPEN, SIDE_PERIODIC };
-#define SIDE_WORDS "slip|no_slip|symmetry|velocity|pressure|open|periodic"
+enum side_kind { SIDE_SLIP, SIDE_NO_SLIP, SIDE_SYMMETRY, SIDE_VELOCITY, SIDE_PRESSURE, SIDE_OPEN, SIDE_PERIODIC, SIDE_ABSORBING };
+#define SIDE_WORDS "slip|no_slip|symmetry|velocity|pressure|open|periodic|absorbing"
 
 struct side_condition {
   int             kind;
+  bool            shear_only;  /* SIDE_ABSORBING: the normal component is held, as at SIDE_SLIP; with a fluid */
   struct function velocity[3]; /* m/s, SIDE_VELOCITY */
   struct function pressure;    /* Pa (gauge), SIDE_PRESSURE */
 };

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "coupling/coupling.h"
 #include "eos/eos.h"
+#include "mpm/absorb.h"
 #include "mpm/mpm.h"
 
 #include <math.h>
@@ -184,6 +185,7 @@ enum status ice_predict_solid(struct sim *sim, double dt)
   const struct side_condition *sides = sim->scene->solid_side;
   int                          dim = sim->grid.dim;
   for (int axis = 0; axis < dim; axis++) predict_nodes(sim, ice, axis, dt);
+  absorb_slow(sim, mpm_of(sim), dt, ice->vel_star_nc);
   boundary_velocity(&sim->grid, sides, sim->t + dt, ice->vel_star_nc);
   boundary_ghosts(&mpm_of(sim)->kernel_grid, sides, dim, sim->t + dt, ice->vel_star_nc);
   for (int axis = 0; axis < dim; axis++) skeleton_faces(sim, ice, axis);

@@ -22,6 +22,7 @@ static struct box wall_plane(const struct grid *g, int side)
 static double parity(const struct side_condition *side, int axis, int n, int component)
 {
   if (n == 1) return 1;
+  if (side->kind == SIDE_ABSORBING) return component == axis && side->shear_only ? -1 : 1;
   bool stuck = side->kind == SIDE_NO_SLIP || side->kind == SIDE_VELOCITY;
   return component == axis || stuck ? -1 : 1;
 }

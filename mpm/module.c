@@ -1,4 +1,5 @@
 /* The solid as material points: its stages, when each is needed, its fields. Read this first. */
+#include "mpm/absorb.h"
 #include "mpm/create.h"
 #include "mpm/heat.h"
 #include "mpm/settle.h"
@@ -40,6 +41,7 @@ static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n
 static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_bodies > 1; }
 static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.present; }
 static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
+static bool absorbing(const struct scene *sc) { return mpm_solid_moves(sc) && absorb_present(sc); }
 static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
 static bool smooth(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->smoothing > 0; }
 static bool smooth_usl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_LAST; }
@@ -82,12 +84,16 @@ static const struct stage stages[] = {
      "only when a solid moves", mpm_solid_moves, mpm_fold_nodes, NULL},
     {"mpm.load_surfaces", SLOT_fold, "x_m mass_nc", "force_nc", "3.3", "only when the scene has loads", loaded,
      mpm_load_surfaces, NULL},
+    {"mpm.hold_sides", SLOT_fold, "reaction_nc mass_nc", "force_nc", "3.9", "only when a side absorbs", absorbing,
+     mpm_hold_sides, NULL},
     {"mpm.join_bodies", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.4",
      "only when bodies are in contact", touching, mpm_join_bodies, NULL},
     {"mpm.share_push", SLOT_nodes, "mass_nc force_nc", "force_nc", "3.4", "only when bodies are in contact in a fluid",
      pushed, mpm_share_push, NULL},
     {"mpm.damp_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "force_nc", "3.5",
      "only when numerics.mpm.damping is above 0", damped, mpm_damp_nodes, NULL},
+    {"mpm.absorb_waves", SLOT_nodes, "reaction_nc mass_nc force_nc vel_nc", "force_nc", "3.9",
+     "only when a side absorbs", absorbing, mpm_absorb_waves, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
      mpm_solid_moves, mpm_advance_nodes, NULL},
     {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc", "vel_new_nc", "3.4",
@@ -161,6 +167,7 @@ static enum status create(struct sim *sim, void *state)
   for (long p = 0; p < m->points->n && m->mass_p; p++) m->mass_floor = fmin(m->mass_floor, 1e-12 * m->mass_p[p]);
   if (!m->moves) return OK;
   TRY(mpm_first_speeds(sim, m));
+  TRY(absorb_create(sim, m));
   TRY(mpm_settle(sim, m));
   return mpm_first_speeds(sim, m);
 }
@@ -176,6 +183,7 @@ static void destroy(void *state)
   memory_free(&m->marker_normal);
   memory_free(&m->marker_body);
   mpm_destroy_bodies(m);
+  absorb_destroy(m);
 }
 
 /* momentum, angular momentum (affine part counted) and kinetic energy of point p */
@@ -240,6 +248,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   l->v[LEDGER_heat_sides] += m->now.heat_sides;
   l->v[LEDGER_elastic] += m->now.contact;
   l->v[LEDGER_damping] += m->now.damping;
+  l->v[LEDGER_absorbed] += m->now.absorbed;
   l->v[LEDGER_mass_solid_out] += m->now.strays.mass_out;
   l->v[LEDGER_mass_solid_lost] += m->now.strays.mass_lost;
   for (int d = 0; d < 3; d++) l->v[LEDGER_momentum_out_x + d] += m->now.strays.momentum[d];

@@ -12,6 +12,7 @@ struct body_nodes {
 };
 
 struct contact_state; /* mpm/contact.c */
+struct absorb_state;  /* mpm/absorb.c */
 
 /* How a start at rest came about (2.5). Out of balance: rms acceleration of the nodes over that of the weight. */
 struct mpm_rest {
@@ -50,6 +51,7 @@ struct mpm {
   struct body_nodes    *bodies;      /* [n_bodies] */
   int                  *marker_body; /* [markers] */
   struct contact_state *contact;     /* NULL: one body */
+  struct absorb_state  *absorb;      /* NULL: no side absorbs */
   double                mass_floor;  /* kg: a node with less has no velocity */
   struct mpm_numbers {
     double wave_speed, speed; /* m/s, largest of all points, of the last step */
@@ -60,6 +62,7 @@ struct mpm {
     double contact;           /* J stored where bodies overlap */
     double damping;           /* J lost to local damping, since the start */
     double heat_sides;        /* J that came in through sides, less that of points that left, since the start */
+    double absorbed;          /* J that left by absorbing sides, since the start */
 
     struct mpm_strays strays;
   } now;

@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "eos/eos.h"
+#include "mpm/absorb.h"
 #include "mpm/at_rest.h"
 #include "mpm/stages.h"
 
@@ -82,8 +83,12 @@ static void stop_points(const struct settle *s)
 
 /* ---- the scene at rest, and the weight that it carries ---- */
 
-/* gravity as at t = 0, whatever it does later; walls that stand still */
-static void stand_still(const struct sim *sim, struct scene *scene)
+/* a body on absorbing sides creeps for ever with what is out of balance, over rho c A */
+static const double absorbing_tolerance = 1e-6;
+
+/* Gravity as at t = 0, whatever it does later; walls that stand still. An absorbing side is rough where it lies across
+ * gravity and smooth along it: what it gives then, it goes on giving (3.9). */
+static void stand_still(const struct sim *sim, const double up[3], struct scene *scene)
 {
   double gravity[3];
   sim_gravity(sim, 0, gravity);
@@ -93,6 +98,10 @@ static void stand_still(const struct sim *sim, struct scene *scene)
     for (int side = 0; side < SIDES; side++) scene->solid_side[side].velocity[d] = (struct function){0};
   }
   scene->contact.detection = DETECT_APPROACH; /* places that are held make no overlap */
+  if (absorb_present(scene)) scene->numerics.rest_tolerance = fmin(scene->numerics.rest_tolerance, absorbing_tolerance);
+  for (int side = 0; side < SIDES; side++)
+    if (scene->solid_side[side].kind == SIDE_ABSORBING)
+      scene->solid_side[side].kind = fabs(up[side / 2]) > 0.5 ? SIDE_NO_SLIP : SIDE_SLIP;
   if (scene->numerics.transfer == TRANSFER_PIC) scene->numerics.transfer = TRANSFER_FLIP; /* PIC lets nothing swing */
 }
 
@@ -296,9 +305,10 @@ enum status mpm_settle(struct sim *sim, struct mpm *m)
   const double        dt = sim->dt, dt_limit = sim->dt_limit, t = sim->t;
   at_rest_up(scene, s.up, &s.g);
   if (scene->start != START_AT_REST || scene->start_from[0] || s.g == 0 || !m->moves) return OK;
-  stand_still(sim, &s.scene);
+  stand_still(sim, s.up, &s.scene);
   enum status status = solve(&s);
   sim->scene = scene;
+  absorb_hold(sim, m);
   sim->dt = dt;
   sim->dt_limit = dt_limit;
   sim->t = t;

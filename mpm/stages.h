@@ -16,6 +16,8 @@ enum status mpm_join_bodies(struct sim *sim, double dt);
 enum status mpm_resolve_contact(struct sim *sim, double dt);
 enum status mpm_join_velocities(struct sim *sim, double dt);
 enum status mpm_share_push(struct sim *sim, double dt);
+enum status mpm_hold_sides(struct sim *sim, double dt);
+enum status mpm_absorb_waves(struct sim *sim, double dt);
 enum status mpm_damp_nodes(struct sim *sim, double dt);
 enum status mpm_advance_nodes(struct sim *sim, double dt);
 enum status mpm_nodes_to_points(struct sim *sim, double dt);

@@ -67,7 +67,7 @@ static enum status check_periodic(struct reader *reader, const struct scene *sce
   return OK;
 }
 
-static enum status check_sides(struct reader *reader, const struct scene *scene)
+static enum status check_sides(struct reader *reader, struct scene *scene)
 {
   TRY(check_periodic(reader, scene, "solid", scene->solid_side));
   TRY(check_periodic(reader, scene, "fluid", scene->fluid_side));
@@ -78,6 +78,10 @@ static enum status check_sides(struct reader *reader, const struct scene *scene)
     if (fluid && !scene->fluid.present)
       return reader_fail(at(reader, "boundary.fluid.%s", side_names[side]),
                          "the scene has no fluid; remove it or add a \"fluid\"");
+    scene->solid_side[side].shear_only = scene->fluid.present;
+    if (scene->fluid_side[side].kind == SIDE_ABSORBING)
+      return reader_fail(at(reader, "boundary.fluid.%s", side_names[side]),
+                         "only the solid has absorbing sides; use \"open\" or \"slip\"");
     if (scene->n_solids > 0 && scene->fluid.present && solid_turns != fluid_turns)
       return reader_fail(at(reader, "boundary.%s.%s", solid_turns ? "fluid" : "solid", side_names[side]),
                          "solid and fluid share the grid; make this side periodic for both or for none");

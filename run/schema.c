@@ -283,7 +283,8 @@ static void define_side(struct builder *b, cJSON *defs, const char *name, bool f
   static const char *const values[][2] = {{"velocity", "#/$defs/function3"}, {"pressure", "#/$defs/function"}};
   cJSON                   *any = add(b, add(b, defs, name, cJSON_CreateObject()), "oneOf", cJSON_CreateArray());
   cJSON                   *word = add(b, any, NULL, cJSON_CreateObject());
-  describe_words(b, word, "slip|no_slip|symmetry|open|periodic");
+  describe_words(b, word,
+                 fluid ? "slip|no_slip|symmetry|open|periodic" : "slip|no_slip|symmetry|open|periodic|absorbing");
   for (int i = 0; i < (fluid ? 2 : 1); i++) {
     cJSON *one = add(b, any, NULL, cJSON_CreateObject());
     add_text(b, one, "type", "object");

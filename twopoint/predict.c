@@ -2,6 +2,7 @@
 #include "twopoint/twopoint.h"
 
 #include "core/parallel.h"
+#include "mpm/absorb.h"
 #include "mpm/mpm.h"
 
 #include <string.h>
@@ -45,6 +46,7 @@ static void predict_solid(struct sim *sim, struct twopoint *w, const double grav
       double force = m->force_nc[i * dim + d] + (1 - water_share(w, i)) * w->water_force_nc[i * dim + d];
       w->solid_star_nc[i * dim + d] += dt * (force / m->mass_nc[i] + gravity[d]);
     }
+  absorb_slow(sim, m, dt, w->solid_star_nc);
   boundary_velocity(g, sim->scene->solid_side, sim->t + dt, w->solid_star_nc);
 }
 

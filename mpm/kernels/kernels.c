@@ -25,7 +25,8 @@ void kernel_grid_create(const struct grid *g, const struct numerics *numerics, c
   for (int d = 0; d < g->dim; d++) kg->half_width[d] = 0.5 * g->h / numerics->points_per_axis[d];
   for (int side = 0; side < 2 * g->dim; side++)
     kg->modified[side] =
-        numerics->wall_basis == WALL_MODIFIED && sides[side].kind != SIDE_OPEN && sides[side].kind != SIDE_PERIODIC;
+        sides[side].kind == SIDE_ABSORBING ||
+        (numerics->wall_basis == WALL_MODIFIED && sides[side].kind != SIDE_OPEN && sides[side].kind != SIDE_PERIODIC);
 }
 
 long kernels_blocks_of_colour(const struct points *p, int dim, int colour)
