@@ -68,18 +68,19 @@ struct elastic {
 /* Pressures that stay above the floor by the exponential, others in the measure that goes on below. */
 static void compress(const struct clay *c, struct elastic *t, VECTOR *secant)
 {
-  VECTOR y = -t->change / c->kappa, growth, x0, x, p, secant_below;
-  vector_expm1(&y, &growth);
+  const double most = 1e100; /* floors: beyond, squares might overflow */
+  VECTOR       y = -t->change / c->kappa, unused, growth, x0, x, p, measured;
+  vector_exp(&y, &unused, &growth);
   t->p = t->p0 + t->p0 * growth;
   *secant = VECTOR_SELECT(y != 0.0, t->p0 * growth / y, t->p0);
-  MASK low = (MASK)(t->p0 < c->floor) | (MASK)(t->p < c->floor);
-  if (!vector_any(&low)) return;
+  MASK measure = (MASK)(t->p0 < c->floor) | (MASK)(t->p < c->floor) | (MASK)(t->p > most * c->floor);
+  if (!vector_any(&measure)) return;
   clay_measure(c, &t->p0, &x0);
   x = x0 + y;
   clay_pressure(c, &x, &p);
-  clay_secant(c, &t->p0, &x0, &p, &x, &secant_below);
-  t->p = VECTOR_SELECT(low, p, t->p);
-  *secant = VECTOR_SELECT(low, secant_below, *secant);
+  clay_secant(c, &t->p0, &x0, &p, &x, &measured);
+  t->p = VECTOR_SELECT(measure, p, t->p);
+  *secant = VECTOR_SELECT(measure, measured, *secant);
 }
 
 /* Adds the elastic stress of the group's strain; answers it in parts. */
@@ -88,7 +89,7 @@ static void strain(const struct clay *c, const VECTOR *v, struct corotate_group 
   VECTOR volume = g->strain[XX] + g->strain[YY] + g->strain[ZZ], mean, unused, growth, secant;
   deviator_split(g->stress, &mean, t->s, &unused);
   deviator_split(g->strain, &unused, t->e, &secant);
-  vector_expm1(&volume, &growth);
+  vector_exp(&volume, &unused, &growth);
   t->p0 = -mean;
   t->change = *v * growth;
   t->v = VECTOR_SELECT(volume != 0.0, t->change / volume, *v);
@@ -136,7 +137,8 @@ static void return_group(const struct clay *c, int m, const struct elastic *t, d
   deviator_split(stress, &mean, dev, &J2);
   group_load(m, N_HISTORY, history, PRECONSOLIDATION, &pc);
   length = VECTOR_MAX(pc, least);
-  MASK outside = (MASK)(3.0 * J2 / (c->M * c->M) + mean * (mean + length) > round_off * length * length);
+  VECTOR sheared = 3.0 * J2 / (c->M * c->M), pressed = -mean * (length + mean), size = VECTOR_ABS(pressed);
+  MASK   outside = (MASK)(sheared - pressed > round_off * (sheared + size));
   if (!vector_any(&outside)) return;
   return_lanes(c, t, &pc, &outside, &end, stress);
   for (int i = 0; i < m; i++) {

@@ -27,7 +27,7 @@ struct clay_state {
   VECTOR compression, plastic; /* plastic strain: of volume, compression positive; of the deviator sqrt(2/3 e:e) */
 };
 
-/** Measure of pressure in which elastic compression is linear, v = -kappa x: ln(p/floor), p/floor - 1 below. */
+/** Measure of pressure in which elastic compression is linear, v = -kappa x: 1 + ln(p/floor), p/floor below. */
 void clay_measure(const struct clay *c, const VECTOR *p, VECTOR *x);
 /** Pa, the pressure of a measure. */
 void clay_pressure(const struct clay *c, const VECTOR *x, VECTOR *p);

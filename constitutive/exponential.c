@@ -5,7 +5,7 @@
 static const double shift = 6755399441055744.0;
 static const double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
 
-void vector_expm1(const VECTOR *x, VECTOR *result)
+void vector_exp(const VECTOR *x, VECTOR *exponential, VECTOR *less_one)
 {
   enum { TERMS = 14 };
   VECTOR most = VECTOR_ALL(EXPONENT_MOST), cut = VECTOR_MIN(*x, most);
@@ -14,7 +14,8 @@ void vector_expm1(const VECTOR *x, VECTOR *result)
   VECTOR sum = VECTOR_ALL(1.0);
   for (int k = TERMS; k >= 2; k--) sum = 1.0 + r * sum * (1.0 / k);
   VECTOR power = (VECTOR)(((MASK)shifted - (MASK)VECTOR_ALL(shift) + 1023) << 52); /* 2^n */
-  *result = power * (r * sum) + (power - 1.0);
+  *less_one = power * (r * sum) + (power - 1.0);
+  *exponential = power * (r * sum) + power;
 }
 
 void vector_log(const VECTOR *x, VECTOR *result)

@@ -7,8 +7,8 @@
 /* Exponents beyond are cut, so that squares of the results stay finite. */
 #define EXPONENT_MOST 300.0
 
-/** exp(x) - 1, all digits near zero too. */
-void vector_expm1(const VECTOR *x, VECTOR *result);
+/** exp(x), and exp(x) - 1 with all its digits near zero. */
+void vector_exp(const VECTOR *x, VECTOR *exponential, VECTOR *less_one);
 
 /** ln of positive, normal numbers. */
 void vector_log(const VECTOR *x, VECTOR *result);

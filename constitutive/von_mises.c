@@ -41,15 +41,15 @@ static void soften(const struct von_mises *v, const MASK *beyond, const VECTOR *
 {
   enum { STEPS = 60 };
   double G = isotropic_shear(&v->elastic), rate = 3.0 / v->softening, soft = v->strength * (1.0 - 1.0 / v->sensitivity);
-  VECTOR x = (*trial - (v->strength - soft) - v->hardening * *shear) / (G + v->hardening), power, lost;
+  VECTOR x = (*trial - (v->strength - soft) - v->hardening * *shear) / (G + v->hardening), power, unused, lost;
   power = -rate * *shear;
-  vector_expm1(&power, &lost);
+  vector_exp(&power, &unused, &lost);
   *step = VECTOR_ALL(0.0);
   MASK open = *beyond & (MASK)(*trial > v->strength + soft * lost + v->hardening * *shear);
   for (int i = 0; i < STEPS && vector_any(&open); i++) {
     VECTOR total = *shear + x;
     power = -rate * total;
-    vector_expm1(&power, &lost);
+    vector_exp(&power, &unused, &lost);
     VECTOR excess = *trial - G * x - (v->strength + soft * lost + v->hardening * total);
     VECTOR change = excess / (soft * rate * (1.0 + lost) - v->hardening - G);
     x -= change;
