@@ -227,10 +227,16 @@ static double yield(const void *prm, const double *stress, const double *history
   return (q * q / (c.M * c.M) + mean * (mean + length)) / length;
 }
 
-static double oedometer_modulus(const void *prm)
+/* of no stress: at the floor */
+static double shear_modulus(const void *prm)
 {
   struct clay c = read_clay(prm);
-  return bulk(&c, 0.0, 1.0 + ((const struct cam_clay *)prm)->void_ratio) * (1.0 + 4.0 / 3.0 * c.shear);
+  return c.shear * bulk(&c, 0.0, 1.0 + ((const struct cam_clay *)prm)->void_ratio);
+}
+
+static double oedometer_modulus(const void *prm)
+{
+  return shear_modulus(prm) * (1.0 / read_clay(prm).shear + 4.0 / 3.0);
 }
 
 /* Jaky's 1 - sin(phi) of normally consolidated soil, or elastic */
@@ -255,5 +261,6 @@ const struct constitutive_model constitutive_cam_clay = {
     .start = start,
     .yield = yield,
     .oedometer_modulus = oedometer_modulus,
+    .shear_modulus = shear_modulus,
     .lateral_ratio = lateral_ratio,
 };

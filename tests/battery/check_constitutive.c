@@ -330,19 +330,25 @@ static void bounds_the_fastest_point(struct point *p)
   ck_assert_msg(all == one, "%s: three points have speed %g, the fastest alone %g", p->law->name, all, one);
 }
 
-/* Oedometer: vertical strain only, and the stress so small that stiffness and area are those of the start. */
+/* Oedometer and simple shear, and the stress so small that stiffness and area are those of the start. */
 static void has_its_initial_moduli(struct point *p)
 {
   double dF[9], e = 1e-9;
   if (p->law->held) return;
   point_compress(p, 1e-7);
-  double before = p->stress[YY];
+  struct point sheared = *p;
+  double       before = p->stress[YY], shear = p->law->shear_modulus(&p->prm);
   memcpy(dF, identity, sizeof dF);
   dF[4] -= e;
   point_step(p, dF);
   ck_assert_msg(fabs((p->stress[YY] - before) / (-e * p->modulus) - 1.0) <= 1e-6, "%s: oedometer modulus %g, not %g",
                 p->law->name, (before - p->stress[YY]) / e, p->modulus);
   if (!p->law->yield) ck_assert_double_eq_tol(p->stress[XX] / p->stress[YY], p->law->lateral_ratio(&p->prm), 1e-6);
+  memcpy(dF, identity, sizeof dF);
+  dF[1] = e;
+  point_step(&sheared, dF);
+  ck_assert_msg(fabs(sheared.stress[XY] / (e * shear) - 1.0) <= 1e-6, "%s: shear modulus %g, not %g", p->law->name,
+                sheared.stress[XY] / e, shear);
 }
 
 /* The geostatic start lies inside the yield surface, at any depth. */
