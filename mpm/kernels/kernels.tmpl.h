@@ -139,6 +139,7 @@ static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, cons
 {
   struct tile t;
   tile_place(&t, kg, run);
+  tile_pad(&t, 2 * DIM);
   FOR_TILE_ROWS(&t, &kg->g, node, row)
   for (int i = 0; i < t.count[0] * DIM; i++) {
     double vel = a->vel_nc[node * DIM + i];
@@ -203,6 +204,7 @@ static void gather(const struct kernel_grid *kg, const struct kernel_run *run, c
 {
   struct tile t;
   tile_place(&t, kg, run);
+  tile_pad(&t, a->n);
   FOR_TILE_ROWS(&t, &kg->g, node, row)
   for (int q = 0; q < a->n; q++) {
     long step = a->stride[q] ? a->stride[q] : 1;

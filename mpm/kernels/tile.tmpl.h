@@ -82,6 +82,15 @@ static inline void tile_clear(struct tile *t, int n)
     for (int j = 0; j < t->count[1]; j++) memset(t->at[k][j], 0, (size_t)n * sizeof t->at[k][j][0]);
 }
 
+/* empties what stands behind the nodes in use of the first n scalars: a row of four nodes reaches there with weights of
+ * zero, and zero times what the stack held may be not a number */
+static inline void tile_pad(struct tile *t, int n)
+{
+  for (int k = 0; k < t->count[2]; k++)
+    for (int j = 0; j < t->count[1]; j++)
+      for (int q = 0; q < n; q++) memset(&t->at[k][j][q][t->count[0]], 0, (ROW_NODES - 1) * sizeof(double));
+}
+
 /* the first scalar at the first node of a stencil; the next scalar stands PITCH further */
 static inline double *tile_at(struct tile *t, const struct stencil *s)
 {
