@@ -27,6 +27,8 @@ static const struct param params[] = {
      "hybrid strain smoothing: share of the smoothed velocity gradient in what strains the points; 0: none"},
     {"stray", PARAM_CHOICE, offsetof(struct mpm_params, stray), "-", 0, 0, "stop", STRAY_WORDS,
      "points that leave the grid: the run stops, they are put back inside, or they are deleted"},
+    {"max_expansion", PARAM_NUMBER, offsetof(struct mpm_params, max_expansion), "-", 0, INFINITY, "infinite", NULL,
+     "a point whose volume grew by more than this share carries no stress until it is compressed again"},
     PARAM_END,
 };
 
@@ -53,6 +55,7 @@ static bool rubbing(const struct scene *sc) { return touching(sc) && heat_solved
 static bool quiet(const struct scene *sc) { return heat_flows(sc) && !rubbing(sc); }
 static bool fluxed(const struct scene *sc) { return heat_flows(sc) && heat_has_side(sc, HEAT_FLUX); }
 static bool unfluxed(const struct scene *sc) { return heat_flows(sc) && !heat_has_side(sc, HEAT_FLUX); }
+static bool parting(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->max_expansion < INFINITY; }
 static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
 static bool musl(const struct scene *sc) { return mpm_solid_moves(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
 
@@ -135,6 +138,8 @@ static const struct stage stages[] = {
     {"mpm.update_stress_and_heat", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",
      "F_p stress_p volume_p history_p heat_p", "1.3", "only when a law of the scene has a history, with heat", working,
      mpm_update_stress, mpm_stress_dt},
+    {"mpm.part_points", SLOT_stress, "gradv_p F_p stress_p volume_p parted_p", "F_p stress_p parted_p", "3.10",
+     "only when numerics.mpm.max_expansion is finite", parting, mpm_part_points, NULL},
     {"mpm.heat_by_work", SLOT_stress, "heat_p mass_p volume_p temperature_p", "temperature_p", "3.8",
      "only when a law of the scene has a history, with heat", working, mpm_heat_by_work, NULL},
 };
@@ -158,6 +163,7 @@ static enum status create(struct sim *sim, void *state)
   struct box all = grid_all(&sim->grid);
   TRY(NEW(&m->run_seen, N_SEEN * m->points->n_runs));
   TRY(NEW(&m->row_work, box_rows(&all)));
+  TRY(NEW(&m->run_parted, 2 * m->points->n_runs));
   TRY(mpm_create_points(sim, m));
   TRY(mpm_start_stress(sim, m));
   TRY(mpm_create_markers(sim, m));
@@ -177,6 +183,7 @@ static void destroy(void *state)
   struct mpm *m = state;
   memory_free(&m->run_seen);
   memory_free(&m->row_work);
+  memory_free(&m->run_parted);
   memory_free(&m->run_heat);
   memory_free(&m->marker_end);
   memory_free(&m->marker_area);
@@ -217,7 +224,7 @@ void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double 
   for (int q = 0; q < dim * dim; q++) F[q / dim * 3 + q % dim] = m->F_p[p * dim * dim + q];
   material->model->energy(material->model_params, 1, F, m->stress_p + 6 * p,
                           m->history_p ? m->history_p + sim->scene->n_history * p : NULL, &energy);
-  l->v[LEDGER_elastic] += energy * m->volume_p[p];
+  if (!m->parted_p || m->parted_p[p] == 0) l->v[LEDGER_elastic] += energy * m->volume_p[p];
   measure_motion(sim, m, p, l);
 }
 

@@ -37,6 +37,7 @@ struct mpm_params {
   double damping;   /* share of the force on a node that acts against its motion */
   double smoothing; /* share of the smoothed velocity gradient in what strains the points */
   int    stray;     /* enum stray: what happens to points that leave the grid */
+  double max_expansion; /* a point whose volume grew by more carries no stress; INFINITY: all do */
 };
 
 struct mpm {
@@ -57,7 +58,7 @@ struct mpm {
     double wave_speed, speed; /* m/s, largest of all points, of the last step */
     double power;             /* W that the stresses of the last step take up */
     double work_loads;        /* J, since the start */
-    double plastic;           /* J lost to plastic flow, since the start */
+    double plastic;           /* J lost to plastic flow, and by points that part, since the start */
     double friction;          /* J lost to friction, since the start */
     double contact;           /* J stored where bodies overlap */
     double damping;           /* J lost to local damping, since the start */
@@ -68,6 +69,7 @@ struct mpm {
   } now;
   double *run_seen;           /* [n_runs][N_SEEN] what they were made of */
   double *row_work;           /* [rows of nodes] J, scratch of sums over nodes */
+  double *run_parted;         /* [n_runs][2] J, W that points lost in the step because they have parted */
   double *run_heat;           /* [n_runs] J, gained by points in the step */
   double  heat_given;         /* J that sides with a flux, and sources, gave in the step */
   long   *marker_end;         /* [loads + tracers] markers of item i end here */

@@ -28,6 +28,8 @@ enum status mpm_take_smoothed(struct sim *sim, double dt);
 enum status mpm_update_stress(struct sim *sim, double dt);
 double      mpm_stress_dt(const struct sim *sim);
 
+enum status mpm_part_points(struct sim *sim, double dt);
+
 /** Markers ride on the new nodal velocity; the loads' work is counted. */
 void mpm_move_markers(struct sim *sim, struct mpm *m, double dt);
 /** Velocity of a body's nodes = momentum / mass where there is enough mass, else zero; walls at time t. */
