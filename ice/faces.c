@@ -57,6 +57,29 @@ double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int ax
   return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].pressure, x, t);
 }
 
+/* fails where the pressure of a wet cell is none that the equation of state is meant for */
+static enum status check_range(const struct sim *sim, const struct ice *ice)
+{
+  const struct eos *eos = sim->scene->fluid.eos;
+  struct box        cells = grid_cells(&sim->grid);
+  long              bad = 0;
+  PARALLEL_FOR
+  for (long r = 0; r < box_rows(&cells); r++) {
+    long c0 = box_row(&sim->grid, &cells, r), lost = 0;
+    for (long c = c0; c < c0 + box_length(&cells); c++)
+      if (ice->wet_cc[c] > 0) lost += eos->outside(sim->scene->fluid.eos_params, 1, &ice->P_cc[c], NULL);
+    if (lost > 0) {
+#pragma omp atomic
+      bad += lost;
+    }
+  }
+  if (bad == 0) return OK;
+  return FAIL(ERR_DIVERGED,
+              "ice: %ld cells have a pressure outside the range of %s, %s, at t = %g s; give a larger one "
+              "at the start and the sides, or lower numerics.dt_factor",
+              bad, eos->name, eos->range, sim->t);
+}
+
 /* density from the carried pressure, row by row; how far mass and pressure disagree */
 enum status ice_update_properties(struct sim *sim, double dt)
 {
@@ -77,7 +100,7 @@ enum status ice_update_properties(struct sim *sim, double dt)
   grid_fill_periodic(g, 1, ice->rho_cc);
   grid_fill_periodic(g, 1, ice->mass_cc);
   grid_fill_periodic(g, g->dim, ice->vel_cc);
-  return OK;
+  return check_range(sim, ice);
 }
 
 double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
