@@ -16,10 +16,10 @@ struct constitutive_model {
   /** What is wrong with parameters that are each in their range, and the remedy; NULL: nothing. */
   const char *(*check)(const void *prm);
   /** Stress at the end of the step of n points of one material.
-   *  dF, F [n][9] relative and total deformation gradient (in); stress [n][6] effective Cauchy, Pa, tension positive,
-   *  xx yy zz xy yz xz (in/out); history [n][n_history] (in/out; NULL where n_history is 0); work [n] plastic work of
-   *  the step per present volume, J/m3 (out; NULL: not wanted). dt s: rate laws need it. Returns how many points it
-   *  could not update. */
+   *  dF, F [n][9] relative and total deformation gradient (in; F NULL: kept only for laws that are `total`); stress
+   * [n][6] effective Cauchy, Pa, tension positive, xx yy zz xy yz xz (in/out); history [n][n_history] (in/out; NULL
+   * where n_history is 0); work [n] plastic work of the step per present volume, J/m3 (out; NULL: not wanted). dt s:
+   * rate laws need it. Returns how many points it could not update. */
   int (*update)(const void *prm, int n, double dt, const double *dF, const double *F, double *stress, double *history,
                 double *work);
   /** m/s, upper bound over n points from bulk density rb [n] kg/m3 and the present state: it limits dt. */

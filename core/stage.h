@@ -19,7 +19,7 @@ enum slot {
 struct stage {
   const char *name;                     /* "folder.verb_object" */
   enum slot   slot;                     /* its line in core/step_order.def */
-  const char *reads, *writes;           /* field names, checked when the plan is built */
+  const char *reads, *writes;           /* field names, checked with the plan; name?: only if another stage has it */
   const char *source, *when;            /* section of docs/theory.md; needed() in words, for explain */
   bool (*needed)(const struct scene *); /* NULL: always. Looks at the scene, never at the state */
   enum status (*run)(struct sim *, double dt);

@@ -139,8 +139,10 @@ enum status mpm_load_surfaces(struct sim *sim, double dt)
   return OK;
 }
 
-void mpm_move_markers(struct sim *sim, struct mpm *m, double dt)
+/* they ride on the new nodal velocity; the loads' work is counted */
+enum status mpm_move_markers(struct sim *sim, double dt)
 {
+  struct mpm         *m = mpm_of(sim);
   const struct scene *scene = sim->scene;
   int                 dim = sim->grid.dim;
   for (int k = 0; k < scene->n_loads + scene->n_tracers; k++)
@@ -153,4 +155,5 @@ void mpm_move_markers(struct sim *sim, struct mpm *m, double dt)
         m->now.work_loads += dt * vel[d] * force[d];
       }
     }
+  return OK;
 }

@@ -44,11 +44,9 @@ static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc-
 static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.present; }
 static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
 static bool absorbing(const struct scene *sc) { return mpm_solid_moves(sc) && absorb_present(sc); }
-static bool unmarked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers == 0; }
 static bool smooth(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->smoothing > 0; }
 static bool smooth_usl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_LAST; }
 static bool smooth_musl(const struct scene *sc) { return smooth(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
-static bool historic(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0 && !heat_solved(sc); }
 static bool working(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history > 0 && heat_solved(sc); }
 static bool touching_cold(const struct scene *sc) { return touching(sc) && !heat_solved(sc); }
 static bool rubbing(const struct scene *sc) { return touching(sc) && heat_solved(sc); }
@@ -56,8 +54,26 @@ static bool quiet(const struct scene *sc) { return heat_flows(sc) && !rubbing(sc
 static bool fluxed(const struct scene *sc) { return heat_flows(sc) && heat_has_side(sc, HEAT_FLUX); }
 static bool unfluxed(const struct scene *sc) { return heat_flows(sc) && !heat_has_side(sc, HEAT_FLUX); }
 static bool parting(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->max_expansion < INFINITY; }
-static bool plain_law(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_history == 0; }
 static bool musl(const struct scene *sc) { return mpm_solid_moves(sc) && sc->numerics.stress_timing == STRESS_MUSL; }
+
+/* some law knows nothing but F, or contact or parting looks at it */
+static bool deformed(const struct scene *sc)
+{
+  for (int s = 0; s < sc->n_solids; s++)
+    if (scene_material(sc, s)->model->total) return true;
+  return touching(sc) || parting(sc);
+}
+/* nothing comes between motion and stress, and nobody else looks at the velocity gradient */
+static bool at_once(const struct scene *sc)
+{
+  return mpm_solid_moves(sc) && !musl(sc) && !smooth(sc) && !deformed(sc) && !working(sc);
+}
+static bool moved_first(const struct scene *sc) { return mpm_solid_moves(sc) && !at_once(sc); }
+static bool at_once_plain(const struct scene *sc) { return at_once(sc) && sc->n_history == 0; }
+static bool at_once_historic(const struct scene *sc) { return at_once(sc) && sc->n_history > 0; }
+static bool plain_law(const struct scene *sc) { return moved_first(sc) && sc->n_history == 0; }
+static bool historic(const struct scene *sc) { return moved_first(sc) && sc->n_history > 0 && !working(sc); }
+static bool deformed_later(const struct scene *sc) { return moved_first(sc) && deformed(sc); }
 
 static const struct field fields[] = {
 #define FIELD(...) FIELD_ROW(struct mpm, __VA_ARGS__)
@@ -66,6 +82,8 @@ static const struct field fields[] = {
 };
 
 #define POINT_STATE "x_p vel_p mass_p volume_p stress_p"
+#define MOTION "vel_nc vel_new_nc x_p vel_p mass_p"
+#define STRAIN "gradv_p F_p? stress_p volume_p vel_p"
 #define SMOOTHED "x_p volume_p vel_new_nc", "share_nc rate_nc rate_p share_cc gradv_cc smooth_p"
 
 static const struct stage stages[] = {
@@ -119,25 +137,30 @@ static const struct stage stages[] = {
     {"mpm.heat_to_points", SLOT_nodes_to_points, "x_p mass_p unseen_p warming_nc temperature_p",
      "warming_p temperature_p", "3.8", "only when a material has a heat capacity and heat flows", heat_flows,
      mpm_heat_to_points, NULL},
-    {"mpm.nodes_to_points", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p", "x_p vel_p displacement_p gradv_p",
-     "3.1", "only when a solid moves, no markers", unmarked, mpm_nodes_to_points, NULL},
-    {"mpm.nodes_to_points_and_markers", SLOT_nodes_to_points, "vel_nc vel_new_nc x_p vel_p x_m x0_m",
-     "x_p vel_p displacement_p gradv_p x_m", "3.1", "only when a solid moves, with loads or tracers", marked,
-     mpm_nodes_to_points, NULL},
+    {"mpm.nodes_to_points", SLOT_nodes_to_points, MOTION, "x_p vel_p displacement_p gradv_p", "3.1",
+     "only with musl, smoothing, F or work that heats", moved_first, mpm_nodes_to_points, NULL},
+    {"mpm.move_and_strain", SLOT_nodes_to_points, MOTION " stress_p volume_p",
+     "x_p vel_p displacement_p stress_p volume_p", "3.1", "only when nothing comes between, no law with history",
+     at_once_plain, mpm_move_and_strain, mpm_stress_dt},
+    {"mpm.move_and_strain_with_history", SLOT_nodes_to_points, MOTION " stress_p volume_p history_p",
+     "x_p vel_p displacement_p stress_p volume_p history_p", "3.1",
+     "only when nothing comes between, and a law has a history", at_once_historic, mpm_move_and_strain, mpm_stress_dt},
+    {"mpm.move_markers", SLOT_nodes_to_points, "x_m x0_m mass_nc vel_new_nc", "x_m", "3.3",
+     "only with loads or tracers", marked, mpm_move_markers, NULL},
     {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "x_p mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
     {"mpm.smooth_strain_again", SLOT_remap, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, musl", smooth_musl,
      mpm_smooth_strain_again, NULL},
     {"mpm.take_smoothed", SLOT_remap, "gradv_p smooth_p", "gradv_p", "3.6", "only with numerics.mpm.smoothing", smooth,
      mpm_take_smoothed, NULL},
-    {"mpm.update_stress", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p", "F_p stress_p volume_p", "1.3",
-     "only when a solid moves, no law with history", plain_law, mpm_update_stress, mpm_stress_dt},
-    {"mpm.update_stress_and_history", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",
-     "F_p stress_p volume_p history_p", "1.3", "only when a law of the scene has a history, no heat", historic,
+    {"mpm.deform_points", SLOT_stress, "gradv_p F_p", "F_p", "1.3", "only when a law, contact or parting looks at F",
+     deformed_later, mpm_deform_points, NULL},
+    {"mpm.update_stress", SLOT_stress, STRAIN, "stress_p volume_p", "1.3", "only after mpm.nodes_to_points", plain_law,
      mpm_update_stress, mpm_stress_dt},
-    {"mpm.update_stress_and_heat", SLOT_stress, "gradv_p F_p stress_p volume_p vel_p history_p",
-     "F_p stress_p volume_p history_p heat_p", "1.3", "only when a law of the scene has a history, with heat", working,
-     mpm_update_stress, mpm_stress_dt},
+    {"mpm.update_stress_and_history", SLOT_stress, STRAIN " history_p", "stress_p volume_p history_p", "1.3",
+     "only after mpm.nodes_to_points, when a law has a history, no heat", historic, mpm_update_stress, mpm_stress_dt},
+    {"mpm.update_stress_and_heat", SLOT_stress, STRAIN " history_p", "stress_p volume_p history_p heat_p", "1.3",
+     "only when a law of the scene has a history, with heat", working, mpm_update_stress, mpm_stress_dt},
     {"mpm.part_points", SLOT_stress, "gradv_p F_p stress_p volume_p parted_p", "F_p stress_p parted_p", "3.10",
      "only when numerics.mpm.max_expansion is finite", parting, mpm_part_points, NULL},
     {"mpm.heat_by_work", SLOT_stress, "heat_p mass_p volume_p temperature_p", "temperature_p", "3.8",
@@ -221,7 +244,7 @@ void mpm_measure_point(const struct sim *sim, const struct mpm *m, const double 
   for (int d = 0; d < dim; d++) l->v[LEDGER_potential] -= m->mass_p[p] * gravity[d] * m->x_p[p * dim + d];
   if (material->model->held) return;
   double F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, energy = 0;
-  for (int q = 0; q < dim * dim; q++) F[q / dim * 3 + q % dim] = m->F_p[p * dim * dim + q];
+  for (int q = 0; q < dim * dim && m->F_p; q++) F[q / dim * 3 + q % dim] = m->F_p[p * dim * dim + q];
   material->model->energy(material->model_params, 1, F, m->stress_p + 6 * p,
                           m->history_p ? m->history_p + sim->scene->n_history * p : NULL, &energy);
   if (!m->parted_p || m->parted_p[p] == 0) l->v[LEDGER_elastic] += energy * m->volume_p[p];

@@ -60,25 +60,28 @@ double mpm_blend(const struct sim *sim, double dt)
   return n->aflip_beta >= 1 ? 1 : 1 - pow(1 - n->aflip_beta, share);
 }
 
+struct g2p_args mpm_motion(const struct sim *sim, const struct mpm *m, double dt, int group)
+{
+  const struct body_nodes *own = &m->bodies[sim->scene->solids[group].body];
+  return (struct g2p_args){.dt = dt,
+                           .beta = mpm_blend(sim, dt),
+                           .vel_old_nc = own->vel_nc,
+                           .vel_nc = own->vel_new_nc,
+                           .x = m->x_p,
+                           .displacement = m->displacement_p,
+                           .vel = m->vel_p,
+                           .affine = m->affine_p,
+                           .gradv = m->gradv_p};
+}
+
 enum status mpm_nodes_to_points(struct sim *sim, double dt)
 {
-  struct mpm           *m = mpm_of(sim);
-  const struct g2p_args args = {.dt = dt,
-                                .beta = mpm_blend(sim, dt),
-                                .x = m->x_p,
-                                .displacement = m->displacement_p,
-                                .vel = m->vel_p,
-                                .affine = m->affine_p,
-                                .gradv = m->gradv_p};
-  FOR_RUNS(m->points, &sim->grid, run, group)
+  struct mpm *m = mpm_of(sim);
+  FOR_RUNS_READING(m->points, run, group)
   {
-    const struct body_nodes *own = &m->bodies[sim->scene->solids[group].body];
-    struct g2p_args          to_points = args;
-    to_points.vel_old_nc = own->vel_nc;
-    to_points.vel_nc = own->vel_new_nc;
-    if (!scene_material(sim->scene, group)->model->held) m->kernels->g2p(&m->kernel_grid, &run, &to_points);
+    const struct g2p_args args = mpm_motion(sim, m, dt, group);
+    if (!scene_material(sim->scene, group)->model->held) m->kernels->g2p(&m->kernel_grid, &run, &args);
   }
-  if (m->x_m) mpm_move_markers(sim, m, dt);
   return OK;
 }
 
@@ -90,7 +93,7 @@ void mpm_gather_gradient(struct sim *sim, struct mpm *m, double *gradv)
     args.stride[d] = dim;
     args.gradient[d] = gradv + d * dim;
   }
-  FOR_RUNS(m->points, &sim->grid, run, group)
+  FOR_RUNS_READING(m->points, run, group)
   {
     struct gather_args own = args;
     for (int d = 0; d < dim; d++) own.node[d] = m->bodies[sim->scene->solids[group].body].vel_new_nc + d;

@@ -21,17 +21,19 @@ enum status mpm_absorb_waves(struct sim *sim, double dt);
 enum status mpm_damp_nodes(struct sim *sim, double dt);
 enum status mpm_advance_nodes(struct sim *sim, double dt);
 enum status mpm_nodes_to_points(struct sim *sim, double dt);
+enum status mpm_move_and_strain(struct sim *sim, double dt);
+enum status mpm_move_markers(struct sim *sim, double dt);
 enum status mpm_remap_momentum(struct sim *sim, double dt);
 enum status mpm_smooth_strain(struct sim *sim, double dt);
 enum status mpm_smooth_strain_again(struct sim *sim, double dt);
 enum status mpm_take_smoothed(struct sim *sim, double dt);
+enum status mpm_deform_points(struct sim *sim, double dt);
 enum status mpm_update_stress(struct sim *sim, double dt);
 double      mpm_stress_dt(const struct sim *sim);
-
 enum status mpm_part_points(struct sim *sim, double dt);
 
-/** Markers ride on the new nodal velocity; the loads' work is counted. */
-void mpm_move_markers(struct sim *sim, struct mpm *m, double dt);
+/** Nodes to points of one group of points (a solid): what a kernel needs besides the run. */
+struct g2p_args mpm_motion(const struct sim *sim, const struct mpm *m, double dt, int group);
 /** Velocity of a body's nodes = momentum / mass where there is enough mass, else zero; walls at time t. */
 void mpm_velocities(const struct sim *sim, const struct mpm *m, const struct body_nodes *b, double t, double *vel_nc);
 /** Deals with points outside the grid as numerics.mpm.stray says; the set must be sorted after it. */

@@ -32,15 +32,12 @@ static void strain_batch(int dim, double dt, int n, const double *gradv, double 
   }
 }
 
-/* F <- dF F, and as 3 x 3 into wide; own [n][dim][dim] */
-static void deform_batch(int dim, int n, double (*dF)[9], double *own, double (*wide)[9])
+/* F of the points of a total law as 3 x 3; own [n][dim][dim] */
+static void widen_batch(int dim, int n, const double *own, double (*F)[9])
 {
-  for (int i = 0; i < n; i++) {
-    double *F = own + i * dim * dim;
-    for (int q = 0; q < 9; q++) wide[i][q] = q / 3 < dim && q % 3 < dim ? F[q / 3 * dim + q % 3] : q % 4 == 0;
-    tensor_product(dF[i], wide[i], wide[i]);
-    for (int q = 0; q < dim * dim; q++) F[q] = wide[i][q / dim * 3 + q % dim];
-  }
+  for (int i = 0; i < n; i++)
+    for (int q = 0; q < 9; q++)
+      F[i][q] = q / 3 < dim && q % 3 < dim ? own[(i * dim + q / 3) * dim + q % 3] : q % 4 == 0;
 }
 
 /* history of a batch of a law: scene arrays hold the most that a law wants, [n][scene->n_history] */
@@ -101,7 +98,7 @@ static void update_batch(struct mpm *m, const struct batch *b, double dt, const 
   double  dF[POINT_BATCH][9], F[POINT_BATCH][9], own[POINT_BATCH * MAX_HISTORY], work[POINT_BATCH], power = 0;
   double *volume = m->volume_p + b->first, *stress = m->stress_p + b->first * 6, *history = law_history(m, b, own);
   strain_batch(dim, dt, b->n, gradv, dF, volume);
-  if (m->F_p) deform_batch(dim, b->n, dF, m->F_p + b->first * dim * dim, F);
+  if (model->total) widen_batch(dim, b->n, m->F_p + b->first * dim * dim, F);
   seen[SEEN_BAD] +=
       model->update(b->material->model_params, b->n, dt, dF[0], F[0], stress, history, history ? work : NULL);
   store_history(m, b, history);
@@ -142,17 +139,71 @@ static struct batch batch_of(const struct sim *sim, const struct points *points,
   return (struct batch){sim->scene, material, p, left < POINT_BATCH ? (int)left : POINT_BATCH};
 }
 
+/* F <- (I + dt grad v) F of laws that know nothing else, and where contact asks for it */
+enum status mpm_deform_points(struct sim *sim, double dt)
+{
+  struct mpm    *m = mpm_of(sim);
+  struct points *points = m->points;
+  int            dim = sim->grid.dim;
+  PARALLEL_FOR_DYNAMIC
+  for (long r = 0; r < points->n_runs; r++) {
+    long end = batch_of(sim, points, r, points->start[r]).n > 0 ? points->start[r + 1] : points->start[r];
+    for (long p = points->start[r]; p < end; p++) {
+      double *F = m->F_p + p * dim * dim, old[9];
+      memcpy(old, F, (size_t)(dim * dim) * sizeof *F);
+      for (int q = 0; q < dim * dim; q++)
+        for (int k = 0; k < dim; k++) F[q] += dt * m->gradv_p[(p * dim + q / dim) * dim + k] * old[k * dim + q % dim];
+    }
+  }
+  return OK;
+}
+
+static void clear_seen(struct mpm *m)
+{
+  memset(m->run_seen, 0, (size_t)(N_SEEN * m->points->n_runs) * sizeof *m->run_seen);
+}
+
 enum status mpm_update_stress(struct sim *sim, double dt)
 {
   struct mpm    *m = mpm_of(sim);
   struct points *points = m->points;
   int            n = sim->grid.dim * sim->grid.dim;
-  memset(m->run_seen, 0, (size_t)(N_SEEN * points->n_runs) * sizeof *m->run_seen);
+  clear_seen(m);
   PARALLEL_FOR_DYNAMIC
   for (long r = 0; r < points->n_runs; r++)
     for (struct batch b = batch_of(sim, points, r, points->start[r]); b.n > 0;
          b = batch_of(sim, points, r, b.first + b.n))
       update_batch(m, &b, dt, m->gradv_p + b.first * n, m->run_seen + N_SEEN * r);
+  return reduce_seen(sim, m);
+}
+
+/* a run whose points are strained as soon as they have moved */
+struct strain_job {
+  struct mpm  *m;
+  struct batch batch;
+  double       dt, *seen;
+};
+
+static void strain_now(void *context, long p, int n, const double *gradv)
+{
+  struct strain_job *job = context;
+  job->batch.first = p;
+  job->batch.n = n;
+  update_batch(job->m, &job->batch, job->dt, gradv, job->seen);
+}
+
+enum status mpm_move_and_strain(struct sim *sim, double dt)
+{
+  struct mpm *m = mpm_of(sim);
+  clear_seen(m);
+  FOR_RUNS_READING(m->points, run, group)
+  {
+    struct g2p_args   args = mpm_motion(sim, m, dt, group);
+    struct strain_job job = {m, batch_of(sim, m->points, run.index, run.begin), dt, m->run_seen + N_SEEN * run.index};
+    args.strain = strain_now;
+    args.context = &job;
+    if (job.batch.n > 0) m->kernels->g2p(&m->kernel_grid, &run, &args);
+  }
   return reduce_seen(sim, m);
 }
 
@@ -176,7 +227,7 @@ double mpm_stress_dt(const struct sim *sim)
 enum status mpm_first_speeds(struct sim *sim, struct mpm *m)
 {
   struct points *points = m->points;
-  memset(m->run_seen, 0, (size_t)(N_SEEN * points->n_runs) * sizeof *m->run_seen);
+  clear_seen(m);
   for (long r = 0; r < points->n_runs; r++)
     for (struct batch b = batch_of(sim, points, r, points->start[r]); b.n > 0;
          b = batch_of(sim, points, r, b.first + b.n)) {

@@ -49,6 +49,9 @@ static enum status each_word(const char *list, enum status (*visit)(const char *
   return OK;
 }
 
+/* a name that ends with ? counts only where another stage plans the field */
+static bool is_optional(const char *word) { return word[strlen(word) - 1] == '?'; }
+
 static const struct field *find_field(const struct plan *plan, const char *name)
 {
   for (int i = 0; i < plan->n_modules; i++)
@@ -68,6 +71,7 @@ static enum status check_read(const char *word, void *context)
 {
   struct check       *c = context;
   const struct field *f = find_field(c->plan, word);
+  if (is_optional(word)) return OK;
   if (!f)
     return FAIL(ERR_INPUT, "plan: stage %s reads the unknown field %s; declare it in a fields.def", c->stage->name,
                 word);
@@ -83,6 +87,7 @@ static enum status note_written(const char *word, void *context)
 {
   struct check       *c = context;
   const struct field *f = find_field(c->plan, word);
+  if (is_optional(word)) return OK;
   if (!f)
     return FAIL(ERR_INPUT, "plan: stage %s writes the unknown field %s; declare it in a fields.def", c->stage->name,
                 word);

@@ -36,9 +36,9 @@ long kernels_blocks_of_colour(const struct points *p, int dim, int colour)
   return n;
 }
 
-struct kernel_run kernels_run(const struct points *p, int dim, int colour, long i, int group)
+struct kernel_run kernels_run(const struct points *p, long block, int group)
 {
-  long              block = points_block_of_colour(p, dim, colour, i), run = block * p->n_groups + group;
+  long              run = block * p->n_groups + group;
   struct kernel_run r = {.begin = p->start[run], .end = p->start[run + 1], .index = run};
   points_block_corner(p, block, r.corner);
   return r;

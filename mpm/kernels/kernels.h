@@ -88,13 +88,18 @@ void kernel_grid_create(const struct grid *g, const struct numerics *numerics, c
 /** Calls kernel(kg, run, args) for every block, blocks of one colour in parallel. groups: which groups of points. */
 #define FOR_RUNS(points, grid, run, group)                                                                             \
   for (int colour_ = 0; colour_ < points_colours(grid); colour_++)                                                     \
-  PARALLEL_FOR_DYNAMIC for (long i_ = 0; i_ < kernels_blocks_of_colour(points, (grid)->dim, colour_);                  \
-                            i_++) for (int group = 0; group < (points)->n_groups;                                      \
-                                       group++) for (struct kernel_run run =                                           \
-                                                         kernels_run(points, (grid)->dim, colour_, i_, group);         \
-                                                     run.begin < run.end; run.begin = run.end)
+  PARALLEL_FOR_DYNAMIC for (long i_ = 0; i_ < kernels_blocks_of_colour(points, (grid)->dim, colour_); i_++)            \
+      FOR_GROUPS(points, points_block_of_colour(points, (grid)->dim, colour_, i_), run, group)
+
+/** The same for kernels that write nothing to nodes: all blocks at once. */
+#define FOR_RUNS_READING(points, run, group)                                                                           \
+  PARALLEL_FOR_DYNAMIC for (long i_ = 0; i_ < (points)->n_blocks; i_++) FOR_GROUPS(points, i_, run, group)
+
+#define FOR_GROUPS(points, block, run, group)                                                                          \
+  for (int group = 0; group < (points)->n_groups; group++)                                                             \
+    for (struct kernel_run run = kernels_run(points, block, group); run.begin < run.end; run.begin = run.end)
 
 long              kernels_blocks_of_colour(const struct points *p, int dim, int colour);
-struct kernel_run kernels_run(const struct points *p, int dim, int colour, long i, int group);
+struct kernel_run kernels_run(const struct points *p, long block, int group);
 
 #endif
