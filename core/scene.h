@@ -58,11 +58,22 @@ struct fluid {
 };
 
 /* what a side does to the solid or to the fluid */
-enum side_kind { SIDE_SLIP, SIDE_NO_SLIP, SIDE_SYMMETRY, SIDE_VELOCITY, SIDE_PRESSURE, SIDE_OPEN, SIDE_PERIODIC, SIDE_ABSORBING };
+enum side_kind {
+  SIDE_SLIP,
+  SIDE_NO_SLIP,
+  SIDE_SYMMETRY,
+  SIDE_VELOCITY,
+  SIDE_PRESSURE,
+  SIDE_OPEN,
+  SIDE_PERIODIC,
+  SIDE_ABSORBING
+};
 #define SIDE_WORDS "slip|no_slip|symmetry|velocity|pressure|open|periodic|absorbing"
 
 struct side_condition {
   int             kind;
+  bool            rubs;        /* SIDE_SLIP, SIDE_VELOCITY: the solid presses on it and slides, with */
+  double          friction;    /* its Coulomb coefficient; it may leave the side */
   bool            shear_only;  /* SIDE_ABSORBING: the normal component is held, as at SIDE_SLIP; with a fluid */
   struct function velocity[3]; /* m/s, SIDE_VELOCITY */
   struct function pressure;    /* Pa (gauge), SIDE_PRESSURE */
@@ -84,20 +95,40 @@ struct load {
   struct function pressure;    /* Pa, pushes against the outward normal of an arc or patch side */
 };
 
+enum { MAX_OBSTACLES = 16 };
+
+/* A rigid body that the solid meets: it does not yield, and moves as it is told. */
+struct obstacle {
+  char            name[NAME_LENGTH];
+  struct shape    shape;       /* where it is at t = 0 */
+  double          friction;    /* Coulomb coefficient; INFINITY: rough */
+  struct function velocity[3]; /* m/s, of t */
+  double          from, until; /* s, when it is there */
+};
+
 /* A massless point that moves with the solid. */
 struct tracer {
   char   name[NAME_LENGTH];
   double x[3];
 };
 
-enum gauge_kind { GAUGE_POINT, GAUGE_LINE, GAUGE_INTEGRAL, GAUGE_MEAN, GAUGE_TRACER, GAUGE_LOAD, GAUGE_EXTENT };
-#define GAUGE_WORDS "point|line|integral|mean|tracer|load|extent"
+enum gauge_kind {
+  GAUGE_POINT,
+  GAUGE_LINE,
+  GAUGE_INTEGRAL,
+  GAUGE_MEAN,
+  GAUGE_TRACER,
+  GAUGE_LOAD,
+  GAUGE_WALL,
+  GAUGE_EXTENT
+};
+#define GAUGE_WORDS "point|line|integral|mean|tracer|load|wall|extent"
 
 struct gauge {
   char   name[NAME_LENGTH];
   int    kind;
   char   of[NAME_LENGTH];    /* output name of a field, with _x _yy ... for a component; or a ledger entry, or energy */
-  char   on[NAME_LENGTH];    /* GAUGE_TRACER, GAUGE_LOAD: its name; GAUGE_EXTENT: a solid, "water"; "": every solid */
+  char   on[NAME_LENGTH];    /* its tracer, load, side or obstacle; GAUGE_EXTENT: a solid, "water"; "": every solid */
   char   minus[NAME_LENGTH]; /* another gauge, whose number is taken off; "": none */
   double x[3], to[3];        /* m: the point, the ends of the line, or where a tracer's distance is taken from */
   int    n;                  /* samples of a line */
@@ -199,6 +230,8 @@ struct scene {
   struct material      *materials;
   struct solid         *solids;
   struct load          *loads;
+  int                   n_obstacles;
+  struct obstacle      *obstacles;
   struct tracer        *tracers;
   struct gauge         *gauges;
   struct reference_use *references;

@@ -118,7 +118,7 @@ static void mark_held(const struct sim *sim, struct absorb_state *a, double *she
 {
   int dim = sim->grid.dim;
   for (long i = 0; i < sim->grid.size * dim; i++) shelf[i] = INFINITY;
-  boundary_velocity(&sim->grid, sim->scene->solid_side, 0, shelf);
+  boundary_velocity(&sim->grid, mpm_of(sim)->sides, 0, shelf);
   for (long i = 0; i < a->n; i++)
     for (int d = 0; d < dim; d++) a->held[i * dim + d] = shelf[a->node[i] * dim + d] < INFINITY;
 }

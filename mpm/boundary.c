@@ -23,7 +23,7 @@ static double parity(const struct side_condition *side, int axis, int n, int com
 {
   if (n == 1) return 1;
   if (side->kind == SIDE_ABSORBING) return component == axis && side->shear_only ? -1 : 1;
-  bool stuck = side->kind == SIDE_NO_SLIP || side->kind == SIDE_VELOCITY;
+  bool stuck = side->kind == SIDE_NO_SLIP || (side->kind == SIDE_VELOCITY && !side->rubs);
   return component == axis || stuck ? -1 : 1;
 }
 
@@ -48,24 +48,28 @@ static void fold_periodic(const struct grid *g, int d, int n, double *field)
   }
 }
 
-void boundary_fold(const struct kernel_grid *kg, const struct side_condition *sides, int n, double *field)
+void boundary_fold_side(const struct kernel_grid *kg, const struct side_condition *sides, int side, int n,
+                        double *field)
 {
   const struct grid *g = &kg->g;
-  for (int side = 0; side < 2 * g->dim; side++) {
-    int  d = side / 2;
-    long out = (side % 2 ? 1 : -1) * g->stride[d];
-    if (g->periodic[d]) {
-      if (side % 2 == 0) fold_periodic(g, d, n, field);
-      continue;
-    }
-    if (!is_wall(&sides[side]) || kg->modified[side]) continue;
-    struct box b = wall_plane(g, side);
-    FOR_BOX_SERIAL(g, b, c)
-    for (int q = 0; q < n; q++) {
-      field[(c - out) * n + q] += parity(&sides[side], d, n, q) * field[(c + out) * n + q];
-      field[(c + out) * n + q] = 0;
-    }
+  int                d = side / 2;
+  long               out = (side % 2 ? 1 : -1) * g->stride[d];
+  struct box         b = wall_plane(g, side);
+  if (g->periodic[d]) {
+    if (side % 2 == 0) fold_periodic(g, d, n, field);
+    return;
   }
+  if (!is_wall(&sides[side]) || kg->modified[side]) return;
+  FOR_BOX_SERIAL(g, b, c)
+  for (int q = 0; q < n; q++) {
+    field[(c - out) * n + q] += parity(&sides[side], d, n, q) * field[(c + out) * n + q];
+    field[(c + out) * n + q] = 0;
+  }
+}
+
+void boundary_fold(const struct kernel_grid *kg, const struct side_condition *sides, int n, double *field)
+{
+  for (int side = 0; side < 2 * kg->g.dim; side++) boundary_fold_side(kg, sides, side, n, field);
 }
 
 static void ghosts_periodic(const struct grid *g, int d, int n, double *field)
@@ -79,12 +83,19 @@ static void ghosts_periodic(const struct grid *g, int d, int n, double *field)
   }
 }
 
+void boundary_speed(const struct side_condition *side, const double x[3], double t, double speed[3])
+{
+  for (int d = 0; d < 3; d++)
+    speed[d] = side->kind == SIDE_VELOCITY && t >= 0 ? function_value(&side->velocity[d], x, t) : 0;
+}
+
 static double wall_speed(const struct grid *g, const struct side_condition *side, long node, int component, double t)
 {
+  double x[3], speed[3];
   if (side->kind != SIDE_VELOCITY) return 0;
-  double x[3];
   grid_node(g, node, x);
-  return function_value(&side->velocity[component], x, t);
+  boundary_speed(side, x, t, speed);
+  return speed[component];
 }
 
 void boundary_ghosts(const struct kernel_grid *kg, const struct side_condition *sides, int n, double t, double *field)
@@ -117,6 +128,18 @@ void boundary_velocity(const struct grid *g, const struct side_condition *sides,
     for (int q = 0; q < g->dim; q++)
       if (parity(&sides[side], side / 2, g->dim, q) < 0) vel_nc[c * g->dim + q] = wall_speed(g, &sides[side], c, q, t);
   }
+}
+
+bool boundary_holds(const struct grid *g, const struct side_condition *sides, long node, int component)
+{
+  int place[3];
+  grid_place(g, node, place);
+  for (int side = 0; side < 2 * g->dim; side++) {
+    int d = side / 2;
+    if (is_wall(&sides[side]) && place[d] == (side % 2 ? g->n[d] : 0) && parity(&sides[side], d, g->dim, component) < 0)
+      return true;
+  }
+  return false;
 }
 
 struct box boundary_nodes(const struct grid *g, const struct side_condition *sides)

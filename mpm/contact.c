@@ -70,7 +70,7 @@ static enum status add_meetings(const struct mpm *m, struct contact_state *c, lo
 
 static enum status find_meetings(const struct sim *sim, const struct mpm *m, struct contact_state *c)
 {
-  struct box nodes = boundary_nodes(&sim->grid, sim->scene->solid_side);
+  struct box nodes = boundary_nodes(&sim->grid, m->sides);
   c->n = 0;
   for (long i = 0; i < sim->grid.size; i++) c->first[i] = BEYOND;
   FOR_BOX_SERIAL(&sim->grid, nodes, node)
@@ -304,7 +304,7 @@ static void exchange_all(const struct sim *sim, struct mpm *m)
 enum status mpm_resolve_contact(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
-  const struct side_condition *sides = sim->scene->solid_side;
+  const struct side_condition *sides = m->sides;
   TRY(find_meetings(sim, m, m->contact));
   if (m->contact->n == 0) return OK;
   volume_gradients(sim, m);

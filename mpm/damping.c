@@ -31,7 +31,7 @@ static double damp_node(const struct sim *sim, const struct body_nodes *b, const
 /* rows in parallel, their sums in order */
 static double damp_body(const struct sim *sim, struct mpm *m, const struct body_nodes *b, double dt)
 {
-  struct box nodes = boundary_nodes(&sim->grid, sim->scene->solid_side);
+  struct box nodes = boundary_nodes(&sim->grid, m->sides);
   double     gravity[3], work = 0;
   sim_gravity(sim, sim->t + 0.5 * dt, gravity);
   PARALLEL_FOR

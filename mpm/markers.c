@@ -1,4 +1,5 @@
 /* Markers: points of loaded surfaces and tracers, which ride on the solid's nodal velocity. theory 3.3 */
+#include "mpm/sides.h"
 #include "mpm/stages.h"
 
 #include "core/tensor.h"
@@ -134,8 +135,7 @@ enum status mpm_load_surfaces(struct sim *sim, double dt)
       for (int q = 0; q < m->kernels->n_support; q++)
         for (int d = 0; d < dim; d++) m->bodies[m->marker_body[i]].force_nc[node[q] * dim + d] += w[q] * force[d];
     }
-  for (int b = 0; b < m->n_bodies; b++)
-    boundary_fold(&m->kernel_grid, sim->scene->solid_side, dim, m->bodies[b].force_nc);
+  for (int b = 0; b < m->n_bodies; b++) sides_fold(sim, m, b, FOLD_LOADS, sim->t);
   return OK;
 }
 

@@ -3,7 +3,9 @@
 #include "mpm/create.h"
 #include "mpm/heat.h"
 #include "mpm/settle.h"
+#include "mpm/sides.h"
 #include "mpm/stages.h"
+#include "mpm/walls.h"
 
 #include "constitutive/constitutive.h"
 #include "core/memory.h"
@@ -41,6 +43,8 @@ static bool moves_plain(const struct scene *sc) { return mpm_solid_moves(sc) && 
 static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads > 0; }
 static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers > 0; }
 static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_bodies > 1; }
+static bool watched(const struct scene *sc) { return mpm_solid_moves(sc) && sides_watched(sc); }
+static bool walled(const struct scene *sc) { return mpm_solid_moves(sc) && walls_present(sc); }
 static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.present; }
 static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
 static bool absorbing(const struct scene *sc) { return mpm_solid_moves(sc) && absorb_present(sc); }
@@ -117,11 +121,15 @@ static const struct stage stages[] = {
      "only when a side absorbs", absorbing, mpm_absorb_waves, NULL},
     {"mpm.advance_nodes", SLOT_nodes, "mass_nc force_nc vel_nc", "vel_new_nc", "3.1", "only when a solid moves",
      mpm_solid_moves, mpm_advance_nodes, NULL},
+    {"mpm.watch_sides", SLOT_nodes, "mass_nc mom_nc force_nc vel_nc vel_new_nc", NULL, "3.2",
+     "only when a side moves or has a gauge", watched, mpm_watch_sides, NULL},
     {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc", "vel_new_nc", "3.4",
      "only when bodies are in contact, no heat", touching_cold, mpm_resolve_contact, NULL},
     {"mpm.resolve_contact_and_warm", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc heat_source_nc",
      "vel_new_nc heat_source_nc", "3.4", "only when bodies are in contact, with heat", rubbing, mpm_resolve_contact,
      NULL},
+    {"mpm.meet_walls", SLOT_nodes, "x_p volume_p skin_p mass_nc vel_nc vel_new_nc", "vel_new_nc", "3.11",
+     "only when the scene has obstacles or a side has friction", walled, mpm_meet_walls, mpm_walls_dt},
     {"mpm.join_velocities", SLOT_nodes, "mass_nc vel_new_nc", "vel_new_nc", "3.4", "only when bodies are in contact",
      touching, mpm_join_velocities, NULL},
     {"mpm.smooth_strain", SLOT_nodes, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, usl", smooth_usl,
@@ -147,6 +155,8 @@ static const struct stage stages[] = {
      "only when nothing comes between, and a law has a history", at_once_historic, mpm_move_and_strain, mpm_stress_dt},
     {"mpm.move_markers", SLOT_nodes_to_points, "x_m x0_m mass_nc vel_new_nc", "x_m", "3.3",
      "only with loads or tracers", marked, mpm_move_markers, NULL},
+    {"mpm.expel_points", SLOT_nodes_to_points, "x_p", "x_p", "3.11",
+     "only when the scene has obstacles or a side has friction", walled, mpm_expel_points, NULL},
     {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "x_p mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},
     {"mpm.smooth_strain_again", SLOT_remap, SMOOTHED, "3.6", "only with numerics.mpm.smoothing, musl", smooth_musl,
@@ -181,8 +191,10 @@ static enum status create(struct sim *sim, void *state)
   m->points = sim->points[SET_SOLID];
   m->kernels = kernels_find(sim->grid.dim, sim->scene->numerics.basis);
   m->moves = mpm_solid_moves(sim->scene);
-  kernel_grid_create(&sim->grid, &sim->scene->numerics, sim->scene->solid_side, &m->kernel_grid);
+  sides_of_solid(sim->scene, m->sides);
+  kernel_grid_create(&sim->grid, &sim->scene->numerics, m->sides, &m->kernel_grid);
   TRY(mpm_create_bodies(sim, m));
+  if (watched(sim->scene)) TRY(sides_create(sim, m));
   struct box all = grid_all(&sim->grid);
   TRY(NEW(&m->run_seen, N_SEEN * m->points->n_runs));
   TRY(NEW(&m->row_work, box_rows(&all)));
@@ -192,6 +204,7 @@ static enum status create(struct sim *sim, void *state)
   TRY(mpm_create_markers(sim, m));
   TRY(mpm_create_heat(sim, m));
   TRY(mpm_sort_now(sim, m));
+  if (walled(sim->scene)) TRY(walls_create(sim, m));
   m->mass_floor = INFINITY;
   for (long p = 0; p < m->points->n && m->mass_p; p++) m->mass_floor = fmin(m->mass_floor, 1e-12 * m->mass_p[p]);
   if (!m->moves) return OK;
@@ -213,6 +226,8 @@ static void destroy(void *state)
   memory_free(&m->marker_normal);
   memory_free(&m->marker_body);
   mpm_destroy_bodies(m);
+  sides_destroy(m);
+  walls_destroy(m);
   absorb_destroy(m);
 }
 
@@ -273,11 +288,12 @@ static void measure(const struct sim *sim, struct ledger *l)
   for (long p = 0; p < m->points->n && m->mass_p; p++) mpm_measure_point(sim, m, gravity, p, l);
   l->v[LEDGER_elastic] -= half_step_work(sim, m, gravity);
   l->v[LEDGER_work_loads] += m->now.work_loads;
+  l->v[LEDGER_work_walls] += m->now.work_walls;
   l->v[LEDGER_plastic] += m->now.plastic;
   l->v[LEDGER_friction] += m->now.friction;
-  l->v[LEDGER_heat_sides] += m->now.heat_sides;
   l->v[LEDGER_elastic] += m->now.contact;
   l->v[LEDGER_damping] += m->now.damping;
+  l->v[LEDGER_heat_sides] += m->now.heat_sides;
   l->v[LEDGER_absorbed] += m->now.absorbed;
   l->v[LEDGER_mass_solid_out] += m->now.strays.mass_out;
   l->v[LEDGER_mass_solid_lost] += m->now.strays.mass_lost;

@@ -29,7 +29,7 @@ enum status mpm_advance_nodes(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
   const struct grid           *g = &sim->grid;
-  const struct side_condition *sides = sim->scene->solid_side;
+  const struct side_condition *sides = m->sides;
   struct box                   nodes = boundary_nodes(g, sides);
   int                          dim = g->dim;
   double                       gravity[3];

@@ -1,4 +1,5 @@
 /* Points to nodes: mass, momentum, internal force; tractions of loaded surfaces; nodal velocities. theory 3.1 */
+#include "mpm/sides.h"
 #include "mpm/stages.h"
 
 #include "constitutive/constitutive.h"
@@ -74,19 +75,17 @@ void mpm_velocities(const struct sim *sim, const struct mpm *m, const struct bod
   FOR_BOX(g, all, c)
   for (int d = 0; d < dim; d++)
     vel_nc[c * dim + d] = b->mass_nc[c] > m->mass_floor ? b->mom_nc[c * dim + d] / b->mass_nc[c] : 0;
-  boundary_velocity(g, sim->scene->solid_side, t, vel_nc);
+  boundary_velocity(g, m->sides, t, vel_nc);
 }
 
 enum status mpm_fold_nodes(struct sim *sim, double dt)
 {
   (void)dt;
   struct mpm                  *m = mpm_of(sim);
-  const struct side_condition *sides = sim->scene->solid_side;
+  const struct side_condition *sides = m->sides;
   for (int b = 0; b < m->n_bodies; b++) {
     const struct body_nodes *own = &m->bodies[b];
-    boundary_fold(&m->kernel_grid, sides, 1, own->mass_nc);
-    boundary_fold(&m->kernel_grid, sides, sim->grid.dim, own->mom_nc);
-    boundary_fold(&m->kernel_grid, sides, sim->grid.dim, own->force_nc);
+    sides_fold(sim, m, b, FOLD_STEP, sim->t);
     mpm_velocities(sim, m, own, sim->t, own->vel_nc);
     boundary_ghosts(&m->kernel_grid, sides, 1, sim->t, own->mass_nc); /* markers and faces look for the solid there */
   }
@@ -114,13 +113,12 @@ void mpm_refer_to_start(const struct sim *sim, const struct mpm *m, double dt, d
 enum status mpm_remap_momentum(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
-  const struct side_condition *sides = sim->scene->solid_side;
+  const struct side_condition *sides = m->sides;
   TRY(mpm_sort_points(sim, dt)); /* they have moved, perhaps too far for their block */
   gather_points(sim, m, false);
   for (int b = 0; b < m->n_bodies; b++) {
     const struct body_nodes *own = &m->bodies[b];
-    boundary_fold(&m->kernel_grid, sides, 1, own->mass_nc);
-    boundary_fold(&m->kernel_grid, sides, sim->grid.dim, own->mom_nc);
+    sides_fold(sim, m, b, FOLD_REMAP, sim->t + dt);
     mpm_velocities(sim, m, own, sim->t + dt, own->vel_new_nc);
     boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, own->vel_new_nc);
   }

@@ -10,6 +10,7 @@
 #include "eos/eos.h"
 #include "mpm/absorb.h"
 #include "mpm/at_rest.h"
+#include "mpm/sides.h"
 #include "mpm/stages.h"
 
 #include <math.h>
@@ -180,8 +181,9 @@ static double imbalance(const struct settle *s)
 static bool takes_part(const struct stage *stage)
 {
   static enum status (*const parts[])(struct sim *, double) = {
-      mpm_points_to_nodes, mpm_fold_nodes,      mpm_join_bodies,     mpm_advance_nodes, mpm_resolve_contact,
-      mpm_join_velocities, mpm_nodes_to_points, mpm_move_and_strain, mpm_deform_points, mpm_update_stress};
+      mpm_points_to_nodes, mpm_fold_nodes,    mpm_join_bodies,     mpm_advance_nodes,
+      mpm_resolve_contact, mpm_meet_walls,    mpm_join_velocities, mpm_nodes_to_points,
+      mpm_move_and_strain, mpm_deform_points, mpm_update_stress};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
     if (stage->run == parts[i]) return true;
   return false;
@@ -284,6 +286,7 @@ static enum status solve(struct settle *s)
   TRY(keep_all(s));
   TRY(gather_lift(s));
   s->sim->scene = &s->scene;
+  sides_of_solid(&s->scene, s->m->sides);
   TRY(judge(s));
   rest->computed = true;
   rest->column = rest->unbalanced;
@@ -308,6 +311,7 @@ enum status mpm_settle(struct sim *sim, struct mpm *m)
   stand_still(sim, s.up, &s.scene);
   enum status status = solve(&s);
   sim->scene = scene;
+  sides_of_solid(scene, m->sides);
   absorb_hold(sim, m);
   sim->dt = dt;
   sim->dt_limit = dt_limit;

@@ -13,7 +13,10 @@ enum status mpm_points_to_nodes(struct sim *sim, double dt);
 enum status mpm_load_surfaces(struct sim *sim, double dt);
 enum status mpm_fold_nodes(struct sim *sim, double dt);
 enum status mpm_join_bodies(struct sim *sim, double dt);
+enum status mpm_watch_sides(struct sim *sim, double dt);
 enum status mpm_resolve_contact(struct sim *sim, double dt);
+enum status mpm_meet_walls(struct sim *sim, double dt);
+enum status mpm_expel_points(struct sim *sim, double dt);
 enum status mpm_join_velocities(struct sim *sim, double dt);
 enum status mpm_share_push(struct sim *sim, double dt);
 enum status mpm_hold_sides(struct sim *sim, double dt);
@@ -30,6 +33,7 @@ enum status mpm_take_smoothed(struct sim *sim, double dt);
 enum status mpm_deform_points(struct sim *sim, double dt);
 enum status mpm_update_stress(struct sim *sim, double dt);
 double      mpm_stress_dt(const struct sim *sim);
+double      mpm_walls_dt(const struct sim *sim);
 enum status mpm_part_points(struct sim *sim, double dt);
 
 /** Nodes to points of one group of points (a solid): what a kernel needs besides the run. */

@@ -4,6 +4,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "mpm/mpm.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -188,6 +189,12 @@ static double read_distance(const struct gauge_reader *r, const struct sim *sim)
   return sum / (double)(r->end - r->first);
 }
 
+static double read_wall(const struct gauge_reader *r, const struct sim *sim)
+{
+  (void)sim;
+  return *r->number;
+}
+
 static double read_ledger(const struct gauge_reader *r, const struct sim *sim) { return sim->ledger.v[r->ledger]; }
 
 static double read_energy(const struct gauge_reader *r, const struct sim *sim)
@@ -318,6 +325,23 @@ static enum status create_marker(const struct sim *sim, const struct gauge *gaug
   return OK;
 }
 
+/* "force_x", "impulse_x", "displacement_x" of a side or an obstacle */
+static enum status create_wall(const struct sim *sim, const struct gauge *gauge, struct gauge_reader *r)
+{
+  const struct mpm *m = mpm_of(sim);
+  const char       *dash = strrchr(gauge->of, '_');
+  int               wall, axis = dash ? dash[1] - 'x' : -1;
+  if (!m || !mpm_wall_find(sim, gauge->on, &wall) || axis < 0 || axis >= sim->grid.dim)
+    return FAIL(ERR_INPUT, "gauges.%s: there is no %s of \"%s\"; give an obstacle or a side, and force_x or impulse_x",
+                gauge->name, gauge->of, gauge->on);
+  const struct wall_numbers *numbers = &m->now.wall[wall];
+  bool                       force = *gauge->of == 'f', impulse = *gauge->of == 'i';
+  r->number = (force ? numbers->force : impulse ? numbers->impulse : numbers->displacement) + axis;
+  r->read = read_wall;
+  snprintf(r->unit, sizeof r->unit, force ? "N" : impulse ? "N s" : "m");
+  return OK;
+}
+
 int gauge_columns(const struct gauge *gauge) { return gauge->kind == GAUGE_LINE && gauge->n > 1 ? gauge->n : 1; }
 
 enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge, int sample,
@@ -331,6 +355,7 @@ enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge
   if (gauge->kind == GAUGE_LINE) snprintf(reader->name, sizeof reader->name, "%s.%d", gauge->name, sample);
   if (gauge->kind == GAUGE_POINT || gauge->kind == GAUGE_LINE) return create_point(sim, gauge, sample, reader);
   if (gauge->kind == GAUGE_TRACER || gauge->kind == GAUGE_LOAD) return create_marker(sim, gauge, markers, reader);
+  if (gauge->kind == GAUGE_WALL) return create_wall(sim, gauge, reader);
   if (gauge->kind == GAUGE_EXTENT) return gauge_extent_create(sim, gauge, reader);
   reader->ledger = gauge->kind == GAUGE_INTEGRAL ? find_ledger(gauge->of, &unit) : -1;
   if (reader->ledger < 0 && !energy && !released) return create_region(sim, gauge, reader);

@@ -26,6 +26,7 @@ struct gauge_reader {
   struct field_view    volume; /* of points: what means and integrals weigh them with; data NULL: unknown */
   struct field_view    start;  /* of markers: where they were at the start */
   int                  ledger;
+  const double        *number;     /* of a wall */
   long                 first, end; /* markers */
   struct gauge_extent *extent;     /* NULL: not of that kind */
 };

@@ -141,7 +141,7 @@ static enum status sample(struct run *r)
                                                LEDGER_elastic,       LEDGER_compression,   LEDGER_energy_out};
   double                         now, before = 0, scale;
   sim_measure(r->sim, l);
-  now = start[LEDGER_work_loads] - l->v[LEDGER_work_loads];
+  now = start[LEDGER_work_loads] - l->v[LEDGER_work_loads] + start[LEDGER_work_walls] - l->v[LEDGER_work_walls];
   scale = fabs(now);
   for (size_t i = 0; i < sizeof energies / sizeof *energies; i++) {
     now += l->v[energies[i]];

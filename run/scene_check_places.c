@@ -1,5 +1,6 @@
 /* Whether what a scene places lies where it must: solids, fluid, loads, tracers, gauges. */
 #include "run/scene_check.h"
+#include "run/scene_tables.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -214,6 +215,50 @@ static enum status check_loads(struct reader *reader, const struct scene *scene)
   return OK;
 }
 
+/* ---- obstacles ---- */
+
+/** A solid may lean on an obstacle that is there at the start, not reach into it. */
+static enum status check_inroad(struct reader *reader, const struct scene *scene, const struct obstacle *o)
+{
+  double x[3];
+  for (long i = 0; o->from <= 0 && lattice_place(scene, i, x); i++) {
+    if (!(shape_distance(&o->shape, x) < -1e-9 * scene->h)) continue;
+    for (int s = 0; s < scene->n_solids; s++)
+      if (shape_contains(&scene->solids[s].shape, x))
+        return reader_fail(
+            reader, "solids.%s reaches into it at (%.6g, %.6g, %.6g); take one from the other with \"difference\"",
+            scene->solids[s].name, x[0], x[1], x[2]);
+  }
+  return OK;
+}
+
+static enum status check_obstacle(struct reader *reader, const struct scene *scene, const struct obstacle *o)
+{
+  for (int side = 0; side < SIDES; side++)
+    if (strcmp(o->name, side_names[side]) == 0)
+      return reader_fail(reader, "a side of the grid has this name; rename the obstacle");
+  for (int d = 0; d < scene->dim; d++)
+    if (function_varies_in_space(&o->velocity[d]))
+      return reader_fail(reader, "its velocity varies in space and it is rigid; use t only");
+  if (o->until < o->from)
+    return reader_fail(reader, "\"until\" %.10g lies before \"from\" %.10g; exchange them", o->until, o->from);
+  return check_inroad(reader, scene, o);
+}
+
+static enum status check_obstacles(struct reader *reader, const struct scene *scene)
+{
+  snprintf(reader->path, sizeof reader->path, "obstacles");
+  if (scene->n_obstacles > MAX_OBSTACLES)
+    return reader_fail(reader, "%d are more than %d; join some with \"union\"", scene->n_obstacles, MAX_OBSTACLES);
+  if (scene->n_obstacles > 0 && scene->n_solids == 0)
+    return reader_fail(reader, "an obstacle stops solids and there is none; remove it");
+  for (int i = 0; i < scene->n_obstacles; i++) {
+    snprintf(reader->path, sizeof reader->path, "obstacles.%s", scene->obstacles[i].name);
+    TRY(check_obstacle(reader, scene, &scene->obstacles[i]));
+  }
+  return OK;
+}
+
 /* ---- tracers and gauges ---- */
 
 /** A null coordinate becomes the middle of the grid. */
@@ -242,6 +287,20 @@ static enum status check_tracers(struct reader *reader, struct scene *scene)
     TRY(place(reader, scene, t->x));
   }
   return OK;
+}
+
+/** The obstacle or side whose force a gauge shows. */
+static enum status check_wall(struct reader *reader, const struct scene *scene, const struct gauge *g)
+{
+  struct names names = {0};
+  for (int i = 0; i < scene->n_obstacles; i++) names_add(&names, scene->obstacles[i].name);
+  for (int side = 0; side < 2 * scene->dim; side++) {
+    int kind = scene->solid_side[side].kind;
+    if (kind != SIDE_OPEN && kind != SIDE_PERIODIC && kind != SIDE_ABSORBING) names_add(&names, side_names[side]);
+  }
+  for (int i = 0; i < names.n; i++)
+    if (strcmp(names.name[i], g->on) == 0) return OK;
+  return reader_unknown(at(reader, "gauges", g->name, "on"), "obstacle or side", g->on, &names);
 }
 
 /** The load or tracer that a gauge rides on. */
@@ -276,6 +335,7 @@ static enum status check_gauges(struct reader *reader, struct scene *scene)
   for (int i = 0; i < scene->n_gauges; i++) {
     struct gauge *g = &scene->gauges[i];
     if (g->kind == GAUGE_LOAD || g->kind == GAUGE_TRACER) TRY(check_rider(reader, scene, g));
+    if (g->kind == GAUGE_WALL) TRY(check_wall(reader, scene, g));
     if (*g->minus) TRY(check_minus(reader, scene, g));
     if (g->kind == GAUGE_POINT || g->kind == GAUGE_LINE)
       TRY(place(at(reader, "gauges", g->name, g->kind == GAUGE_LINE ? "from" : "at"), scene, g->x));
@@ -292,6 +352,7 @@ enum status scene_check_places(struct reader *reader, struct scene *scene)
   TRY(check_solids(reader, scene));
   TRY(check_fluid(reader, scene));
   TRY(check_loads(reader, scene));
+  TRY(check_obstacles(reader, scene));
   TRY(check_tracers(reader, scene));
   return check_gauges(reader, scene);
 }

@@ -63,6 +63,15 @@ static void add_marker(const struct scene *scene, struct words *words)
   add_word(words, "", "distance", "");
 }
 
+static void add_wall(const struct scene *scene, const char *on, struct words *words)
+{
+  static const char *const axes[] = {"x", "y", "z"}, *const quantities[] = {"force", "impulse", "displacement"};
+  bool obstacle = false;
+  for (int i = 0; i < scene->n_obstacles; i++) obstacle = obstacle || strcmp(scene->obstacles[i].name, on) == 0;
+  for (int q = 0; q < (obstacle ? 3 : 2); q++)
+    for (int d = 0; d < scene->dim; d++) add_word(words, "", quantities[q], axes[d]);
+}
+
 static void add_ends(const struct scene *scene, struct words *words)
 {
   static const char *const ends[] = {"x", "y", "z"};
@@ -85,11 +94,12 @@ static enum status check_word(struct reader *reader, const char *word, const str
 static enum status check_gauge(struct reader *reader, const struct scene *scene, const struct gauge *g)
 {
   struct words words = {0}, with_set = {0};
-  bool         marker = g->kind == GAUGE_TRACER || g->kind == GAUGE_LOAD;
+  bool         marker = g->kind == GAUGE_TRACER || g->kind == GAUGE_LOAD, wall = g->kind == GAUGE_WALL;
   snprintf(reader->path, sizeof reader->path, "gauges.%s.of", g->name);
   if (marker) add_marker(scene, &words);
+  if (wall) add_wall(scene, g->on, &words);
   if (g->kind == GAUGE_EXTENT) add_ends(scene, &words);
-  if (!marker && g->kind != GAUGE_EXTENT) {
+  if (!marker && !wall && g->kind != GAUGE_EXTENT) {
     add_fields(scene, &words, false);
     add_fields(scene, &with_set, true);
   }

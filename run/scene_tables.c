@@ -199,6 +199,23 @@ static const struct section load_section = {.meaning = "traction on a surface th
                                             .params = load_params,
                                             .entries = load_entries};
 
+static const struct param obstacle_params[] = {
+    {"friction", PARAM_NUMBER, AT(obstacle, friction), "-", 0, INFINITY, "0", NULL,
+     "Coulomb coefficient; \"infinite\": rough, what presses on it does not slide"},
+    {"velocity", PARAM_FUNCTION3, AT(obstacle, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL,
+     "velocity of the whole, functions of t"},
+    {"from", PARAM_NUMBER, AT(obstacle, from), "s", 0, 1e15, "0", NULL, "time at which it appears"},
+    {"until", PARAM_NUMBER, AT(obstacle, until), "s", 0, INFINITY, "null", NULL,
+     "time at which it vanishes; 0: a gate that the start leans on; null: never"},
+    PARAM_END};
+static const struct entry obstacle_entries[] = {
+    VALUE("shape", shape, obstacle, shape, NULL, "-", "region that it fills at t = 0; it may reach beyond the grid"),
+    ENTRY_END};
+static const struct section obstacle_section = {.meaning = "rigid body that the solid meets",
+                                                .size = sizeof(struct obstacle),
+                                                .params = obstacle_params,
+                                                .entries = obstacle_entries};
+
 static const struct param   tracer_params[] = {{"at", PARAM_VECTOR, AT(tracer, x), "m", -1e9, INFINITY, NULL, NULL,
                                                 "place at the start; null: the middle of that axis"},
                                                PARAM_END};
@@ -213,7 +230,7 @@ static const struct section tracer_section = {.meaning = "massless point that mo
   }
 #define GAUGE_ON                                                                                                       \
   {                                                                                                                    \
-    "on", PARAM_TEXT, AT(gauge, on), "-", 0, 0, NULL, NULL, "name of the tracer or load"                               \
+    "on", PARAM_TEXT, AT(gauge, on), "-", 0, 0, NULL, NULL, "name of the tracer, load, obstacle or side"               \
   }
 #define GAUGE_MINUS                                                                                                    \
   {                                                                                                                    \
@@ -243,6 +260,12 @@ static const struct param gauge_extent[] = {
      "points count that hang together: those of the largest cluster of cells, face to face, that hold some"},
     GAUGE_MINUS,
     PARAM_END};
+static const struct param gauge_wall[] = {
+    {"of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL,
+     "force_x of it on the solid over the last step, impulse_x since the start, or displacement_x of an obstacle"},
+    GAUGE_ON,
+    GAUGE_MINUS,
+    PARAM_END};
 static const struct param gauge_tracer[] = {
     GAUGE_OF,
     GAUGE_ON,
@@ -256,7 +279,7 @@ static bool gauge_row(int i, struct row *row)
   static const struct row rows[] = {{"point", NULL, gauge_point, 0, NULL},     {"line", NULL, gauge_line, 0, NULL},
                                     {"integral", NULL, gauge_region, 0, NULL}, {"mean", NULL, gauge_region, 0, NULL},
                                     {"tracer", NULL, gauge_tracer, 0, NULL},   {"load", NULL, gauge_load, 0, NULL},
-                                    {"extent", NULL, gauge_extent, 0, NULL}};
+                                    {"wall", NULL, gauge_wall, 0, NULL},       {"extent", NULL, gauge_extent, 0, NULL}};
   bool                    found = i < (int)(sizeof rows / sizeof *rows);
   if (found) *row = rows[i];
   return found;
@@ -390,6 +413,7 @@ static const struct entry scene_entries[] = {
             "contact between bodies; leave it out and all solids share one velocity field"),
     SECTION("fluid", fluid_section, AT(scene, fluid), NULL, "the liquid; leave it out for a dry scene"),
     SECTION("boundary", boundary_section, 0, "{}", "conditions at the sides of the grid"),
+    MAP("obstacles", obstacle_section, obstacles, "rigid bodies by name"),
     MAP("loads", load_section, loads, "tractions by name"),
     MAP("tracers", tracer_section, tracers, "massless points that move with the solid, by name: a list of coordinates"),
     MAP("gauges", gauge_section, gauges, "numbers sampled over time, by name"),

@@ -66,45 +66,82 @@ static enum status read_side_word(struct reader *reader, const char *word, struc
   return OK;
 }
 
-static enum status read_side_object(struct reader *reader, const cJSON *value, struct side_condition *side)
+enum { SIDE_KEYS = 2 };
+static const struct param fluid_side_keys[SIDE_KEYS] = {{.name = "velocity",
+                                                         .type = PARAM_FUNCTION3,
+                                                         .offset = offsetof(struct side_condition, velocity),
+                                                         .meaning = "velocity in m/s"},
+                                                        {.name = "pressure",
+                                                         .type = PARAM_FUNCTION,
+                                                         .offset = offsetof(struct side_condition, pressure),
+                                                         .meaning = "pressure in Pa"}};
+static const struct param solid_side_keys[SIDE_KEYS] = {{.name = "velocity",
+                                                         .type = PARAM_FUNCTION3,
+                                                         .offset = offsetof(struct side_condition, velocity),
+                                                         .meaning = "velocity in m/s"},
+                                                        {.name = "friction",
+                                                         .type = PARAM_NUMBER,
+                                                         .offset = offsetof(struct side_condition, friction),
+                                                         .min = 0,
+                                                         .max = INFINITY,
+                                                         .meaning = "Coulomb coefficient"}};
+
+static enum status read_side_keys(struct reader *reader, const cJSON *value, const struct param keys[SIDE_KEYS],
+                                  struct side_condition *side)
 {
-  static const struct param velocity[] = {{.name = "velocity",
-                                           .type = PARAM_FUNCTION3,
-                                           .offset = offsetof(struct side_condition, velocity),
-                                           .meaning = "velocity in m/s"}};
-  static const struct param pressure[] = {{.name = "pressure",
-                                           .type = PARAM_FUNCTION,
-                                           .offset = offsetof(struct side_condition, pressure),
-                                           .meaning = "pressure in Pa"}};
-  const cJSON              *member = value->child;
-  bool                      is_velocity = member && !member->next && strcmp(member->string, "velocity") == 0;
-  bool                      is_pressure = member && !member->next && strcmp(member->string, "pressure") == 0;
-  if (!is_velocity && !is_pressure)
-    return reader_fail(
-        reader,
-        "expected one of {\"velocity\": [...]} and {\"pressure\": ...}; write one of them or a word such as \"slip\"");
-  side->kind = is_velocity ? SIDE_VELOCITY : SIDE_PRESSURE;
-  size_t mark = reader_enter(reader, member->string);
-  TRY(params_read_value(reader, is_velocity ? velocity : pressure, member, side));
-  reader_leave(reader, mark);
+  for (const cJSON *member = value->child; member; member = member->next) {
+    bool   known = json_is_comment(member);
+    size_t mark = reader_enter(reader, member->string);
+    for (int i = 0; i < SIDE_KEYS && !known; i++) {
+      known = strcmp(keys[i].name, member->string) == 0;
+      if (known) TRY(params_read_value(reader, &keys[i], member, side));
+    }
+    reader_leave(reader, mark);
+    struct names names = {.n = SIDE_KEYS, .name = {keys[0].name, keys[1].name}};
+    if (!known) return reader_unknown(reader, "key", member->string, &names);
+  }
   return OK;
+}
+
+static enum status fail_side(const struct reader *reader, const cJSON *value, const char *example)
+{
+  return reader_fail(reader, "expected a word or an object, found %s; write \"slip\" or %s", json_type(value), example);
 }
 
 static enum status read_side_fluid(struct reader *reader, const cJSON *value, void *at)
 {
+  struct side_condition *side = at;
+  bool                   is_velocity = json_member(value, "velocity");
   if (cJSON_IsString(value)) return read_side_word(reader, value->valuestring, at);
-  if (cJSON_IsObject(value)) return read_side_object(reader, value, at);
-  return reader_fail(reader, "expected a word or an object, found %s; write \"slip\" or {\"velocity\": [1, 0]}",
-                     json_type(value));
+  if (!cJSON_IsObject(value)) return fail_side(reader, value, "{\"velocity\": [1, 0]}");
+  TRY(read_side_keys(reader, value, fluid_side_keys, side));
+  side->kind = is_velocity ? SIDE_VELOCITY : SIDE_PRESSURE;
+  if (is_velocity != (json_member(value, "pressure") != NULL)) return OK;
+  return reader_fail(
+      reader, "expected one of {\"velocity\": [...]} and {\"pressure\": ...}; write one of them or a word such as "
+              "\"slip\"");
+}
+
+/* {"velocity": [...]} is rough and holds the solid, with "friction" the solid presses on it and slides */
+static enum status read_side_motion(struct reader *reader, const cJSON *value, struct side_condition *side)
+{
+  bool moves = json_member(value, "velocity"), rubs = json_member(value, "friction");
+  TRY(read_side_keys(reader, value, solid_side_keys, side));
+  side->kind = moves ? SIDE_VELOCITY : SIDE_SLIP;
+  side->rubs = rubs;
+  if (moves || rubs) return OK;
+  return reader_fail(reader, "expected \"friction\", \"velocity\" or both; write {\"friction\": 0.5} or a word such as "
+                             "\"slip\"");
 }
 
 static enum status read_side_solid(struct reader *reader, const cJSON *value, void *at)
 {
-  const struct side_condition *side = at;
-  TRY(read_side_fluid(reader, value, at));
-  if (side->kind == SIDE_PRESSURE)
+  struct side_condition *side = at;
+  if (!cJSON_IsString(value) && !cJSON_IsObject(value)) return fail_side(reader, value, "{\"friction\": 0.5}");
+  if (cJSON_IsString(value)) TRY(read_side_word(reader, value->valuestring, side));
+  if (side->kind == SIDE_PRESSURE || json_member(value, "pressure"))
     return reader_fail(reader, "a solid has no pressure side; put a load with \"pressure\" on its surface instead");
-  return OK;
+  return cJSON_IsObject(value) ? read_side_motion(reader, value, side) : OK;
 }
 
 static void destroy_side(void *at)

@@ -277,22 +277,20 @@ static void define_shape(struct builder *b, cJSON *defs)
   }
 }
 
-/** side_solid, side_fluid: words, {"velocity": [...]}, and for the fluid {"pressure": ...}. */
-static void define_side(struct builder *b, cJSON *defs, const char *name, bool fluid)
+/** side_solid, side_fluid: words, or an object of `properties` of which `least` to `most` are given. */
+static void define_side(struct builder *b, cJSON *defs, const char *name, const char *properties, int least, int most)
 {
-  static const char *const values[][2] = {{"velocity", "#/$defs/function3"}, {"pressure", "#/$defs/function"}};
-  cJSON                   *any = add(b, add(b, defs, name, cJSON_CreateObject()), "oneOf", cJSON_CreateArray());
-  cJSON                   *word = add(b, any, NULL, cJSON_CreateObject());
+  cJSON *any = add(b, add(b, defs, name, cJSON_CreateObject()), "oneOf", cJSON_CreateArray());
+  cJSON *word = add(b, any, NULL, cJSON_CreateObject());
+  bool   solid = strcmp(name, "side_solid") == 0;
   describe_words(b, word,
-                 fluid ? "slip|no_slip|symmetry|open|periodic" : "slip|no_slip|symmetry|open|periodic|absorbing");
-  for (int i = 0; i < (fluid ? 2 : 1); i++) {
-    cJSON *one = add(b, any, NULL, cJSON_CreateObject());
-    add_text(b, one, "type", "object");
-    add_text(b, add(b, add(b, one, "properties", cJSON_CreateObject()), values[i][0], cJSON_CreateObject()), "$ref",
-             values[i][1]);
-    add(b, add(b, one, "required", cJSON_CreateArray()), NULL, cJSON_CreateString(values[i][0]));
-    add(b, one, "additionalProperties", cJSON_CreateFalse());
-  }
+                 solid ? "slip|no_slip|symmetry|open|periodic|absorbing" : "slip|no_slip|symmetry|open|periodic");
+  cJSON *one = add(b, any, NULL, cJSON_CreateObject());
+  add_text(b, one, "type", "object");
+  add(b, one, "properties", cJSON_Parse(properties));
+  add_number(b, one, "minProperties", least);
+  add_number(b, one, "maxProperties", most);
+  add(b, one, "additionalProperties", cJSON_CreateFalse());
 }
 
 static void define_all(struct builder *b, cJSON *defs)
@@ -307,8 +305,12 @@ static void define_all(struct builder *b, cJSON *defs)
       cJSON_Parse(
           "{\"type\": \"array\", \"minItems\": 2, \"maxItems\": 3, \"items\": {\"$ref\": \"#/$defs/function\"}}"));
   define_shape(b, defs);
-  define_side(b, defs, "side_solid", false);
-  define_side(b, defs, "side_fluid", true);
+  define_side(b, defs, "side_solid",
+              "{\"velocity\": {\"$ref\": \"#/$defs/function3\"}, \"friction\": {\"type\": \"number\", \"minimum\": 0}}",
+              1, 2);
+  define_side(b, defs, "side_fluid",
+              "{\"velocity\": {\"$ref\": \"#/$defs/function3\"}, \"pressure\": {\"$ref\": \"#/$defs/function\"}}", 1,
+              1);
 }
 
 enum status schema_print(FILE *out)

@@ -1,0 +1,179 @@
+/* The solid meets rigid walls: its surface may not move into them, and slides along them with Coulomb friction.
+ * theory 3.11 */
+#include "mpm/stages.h"
+#include "mpm/walls.h"
+
+#include <math.h>
+#include <string.h>
+
+/* corrections of all pressures in a step */
+enum { SWEEPS = 5 };
+
+/* One wall's part of a step. */
+struct sweep {
+  int           dim;
+  const double *vel_old_nc; /* [size][dim] m/s, of the body at the start of the step */
+  double       *vel_nc;     /* at its end, changed */
+  double        moves[3];   /* m/s, the wall */
+  double        moved[3];   /* m/s, in the step before */
+  double        friction;   /* Coulomb coefficient */
+  double        impulse[3]; /* N s on the solid, added to */
+  double        lost;       /* J to friction, added to */
+};
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* area times velocity of the body's surface into the wall, beyond what closes the gap, and along it */
+static void weigh_velocities(struct walls_state *s, int wall, const struct sweep *w)
+{
+  for (long k = s->first_pressure[wall]; k < s->first_pressure[wall + 1]; k++) {
+    s->pressures[k].excess = 0;
+    memset(s->pressures[k].slide, 0, sizeof s->pressures[k].slide);
+  }
+  for (long i = s->first_touch[wall]; i < s->first_touch[wall + 1]; i++) {
+    const struct touch *t = &s->touches[i];
+    double              u[3] = {0}, out;
+    for (int d = 0; d < w->dim; d++) u[d] = w->vel_nc[t->node * w->dim + d] - w->moves[d];
+    out = dot(u, t->normal);
+    for (int k = 0; k < 1 << w->dim; k++) {
+      struct pressure *p = &s->pressures[t->pressure[k]];
+      p->excess -= t->share[k] * t->area * (out + t->closing);
+      for (int d = 0; d < 3; d++) p->slide[d] += t->share[k] * t->area * (u[d] - out * t->normal[d]);
+    }
+  }
+}
+
+/* presses only; friction stops what slides, at most with its share of the pressure */
+static void correct_pressure(struct pressure *p, double friction)
+{
+  double normal, along[3], length, limit;
+  p->change = 0;
+  memset(p->change_along, 0, sizeof p->change_along);
+  if (!(p->ease > 0)) return;
+  normal = fmax(0, p->normal + p->excess / p->ease);
+  for (int d = 0; d < 3; d++) along[d] = p->along[d] - p->slide[d] / p->ease;
+  length = sqrt(dot(along, along));
+  limit = normal > 0 ? friction * normal : 0;
+  for (int d = 0; d < 3; d++) {
+    if (length > limit) along[d] *= limit / length;
+    p->change_along[d] = along[d] - p->along[d];
+    p->along[d] = along[d];
+  }
+  p->change = normal - p->normal;
+  p->normal = normal;
+}
+
+/* impulse per area that the pressures around a touch give it: along the normal, and along the surface */
+static double gather(const struct walls_state *s, const struct touch *t, int dim, bool change, double rub[3])
+{
+  double press = 0, out;
+  rub[0] = rub[1] = rub[2] = 0;
+  for (int k = 0; k < 1 << dim; k++) {
+    const struct pressure *p = &s->pressures[t->pressure[k]];
+    press += t->share[k] * (change ? p->change : p->normal);
+    for (int d = 0; d < dim; d++) rub[d] += t->share[k] * (change ? p->change_along[d] : p->along[d]);
+  }
+  out = dot(rub, t->normal);
+  for (int d = 0; d < dim; d++) rub[d] -= out * t->normal[d];
+  return press;
+}
+
+/* the changes of the pressures act on the nodes */
+static void push_nodes(const struct walls_state *s, int wall, struct sweep *w)
+{
+  for (long i = s->first_touch[wall]; i < s->first_touch[wall + 1]; i++) {
+    const struct touch *t = &s->touches[i];
+    double              rub[3], press = gather(s, t, w->dim, true, rub);
+    for (int d = 0; d < w->dim; d++)
+      w->vel_nc[t->node * w->dim + d] += t->ease[d] * t->area * (press * t->normal[d] + rub[d]);
+  }
+}
+
+/* What all sweeps together gave the body. Friction works on the mean of the slips at both ends of the step: with the
+ * slip after the other forces, what sticks would seem to lose (dt f)^2/2m in every step. */
+static void sum_up(const struct walls_state *s, int wall, struct sweep *w)
+{
+  for (long i = s->first_touch[wall]; i < s->first_touch[wall + 1]; i++) {
+    const struct touch *t = &s->touches[i];
+    double              rub[3], press = gather(s, t, w->dim, false, rub);
+    for (int d = 0; d < w->dim; d++) {
+      long at = t->node * w->dim + d;
+      if (t->ease[d] == 0) continue;
+      w->impulse[d] += t->area * (press * t->normal[d] + rub[d]);
+      w->lost -= t->area * rub[d] * 0.5 * (w->vel_old_nc[at] - w->moved[d] + w->vel_nc[at] - w->moves[d]);
+    }
+  }
+}
+
+static enum status meet(struct sim *sim, struct mpm *m, int body, struct sweep *sweeps)
+{
+  struct walls_state *s = m->walls;
+  TRY(touches_find(sim, m, body));
+  for (int i = 0; i < s->n_walls; i++) {
+    sweeps[i].vel_old_nc = m->bodies[body].vel_nc;
+    sweeps[i].vel_nc = m->bodies[body].vel_new_nc;
+  }
+  for (int n = 0; n < SWEEPS; n++)
+    for (int i = 0; i < s->n_walls; i++) {
+      weigh_velocities(s, i, &sweeps[i]);
+      for (long k = s->first_pressure[i]; k < s->first_pressure[i + 1]; k++)
+        correct_pressure(&s->pressures[k], sweeps[i].friction);
+      push_nodes(s, i, &sweeps[i]);
+    }
+  for (int i = 0; i < s->n_walls; i++) sum_up(s, i, &sweeps[i]);
+  boundary_ghosts(&m->kernel_grid, m->sides, sim->grid.dim, sim->t + sim->dt, m->bodies[body].vel_new_nc);
+  return OK;
+}
+
+/* Points go where their nodes' velocities lead, which vanish into the wall on the mean over its surface only: what
+ * crept in by a hair is put back on the surface. Returns how deep it was, m. */
+static double expel_point(const struct mpm *m, int wall, int dim, double *x_p)
+{
+  double x[3] = {0}, normal[3];
+  for (int d = 0; d < dim; d++) x[d] = x_p[d];
+  double distance = wall_distance(m, wall, x, normal);
+  for (int d = 0; d < dim && distance < 0; d++) x_p[d] -= distance * normal[d];
+  return fmax(0, -distance);
+}
+
+/* what a wall did in this step goes to its account, and it moves on */
+static void book(struct mpm *m, int account, const struct sweep *w, double dt)
+{
+  struct wall_numbers *wall = &m->now.wall[account];
+  for (int d = 0; d < 3; d++) {
+    wall->force[d] = w->impulse[d] / dt;
+    wall->impulse[d] += w->impulse[d];
+    wall->displacement[d] += dt * w->moves[d];
+    wall->velocity[d] = w->moves[d];
+    m->now.work_walls += w->impulse[d] * 0.5 * (w->moved[d] + w->moves[d]);
+  }
+  m->now.friction += w->lost;
+}
+
+enum status mpm_expel_points(struct sim *sim, double dt)
+{
+  struct mpm         *m = mpm_of(sim);
+  struct walls_state *s = m->walls;
+  int                 dim = sim->grid.dim;
+  for (int i = 0; i < s->n_walls; i++) {
+    double *depth = &m->now.wall[s->wall[i].account].depth;
+    if (!wall_present(&s->wall[i].body, sim->t + 0.5 * dt)) continue;
+    for (long p = 0; p < m->points->n; p++) *depth = fmax(*depth, expel_point(m, i, dim, m->x_p + p * dim));
+  }
+  return OK;
+}
+
+enum status mpm_meet_walls(struct sim *sim, double dt)
+{
+  struct mpm         *m = mpm_of(sim);
+  struct walls_state *s = m->walls;
+  struct sweep        sweeps[MAX_WALLS] = {{0}};
+  for (int i = 0; i < s->n_walls; i++) {
+    sweeps[i] = (struct sweep){.dim = sim->grid.dim, .friction = s->wall[i].body.friction};
+    wall_velocity(&s->wall[i].body, sim->t + 0.5 * dt, sweeps[i].moves);
+    memcpy(sweeps[i].moved, m->now.wall[s->wall[i].account].velocity, sizeof sweeps[i].moved);
+  }
+  for (int b = 0; b < m->n_bodies; b++) TRY(meet(sim, m, b, sweeps));
+  for (int i = 0; i < s->n_walls; i++) book(m, s->wall[i].account, &sweeps[i], dt);
+  return OK;
+}

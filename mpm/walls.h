@@ -1,0 +1,67 @@
+/* Rigid walls that the solid meets at their surface: obstacles, and sides of the grid with friction. theory 3.11 */
+#ifndef MPM_WALLS_H
+#define MPM_WALLS_H
+
+#include "mpm/mpm.h"
+
+enum { MAX_WALLS = SIDES + MAX_OBSTACLES };
+
+/* A side with friction is the half-space beyond it. */
+struct wall {
+  struct obstacle body;    /* as in the scene, which owns what it points at */
+  int             account; /* its place in now.wall */
+};
+
+/* A node at which a body touches a wall, and the pressures that act there. */
+struct touch {
+  long   node;
+  double normal[3]; /* out of the wall */
+  double area;      /* m2 (m in 2D) of the body's surface that faces the wall */
+  double closing;   /* m/s: how fast the gap may close to be closed at the end of the step */
+  double ease[3];   /* 1/kg: change of velocity by a unit impulse; 0 where a side of the grid holds it */
+  int    pressure[8];
+  double share[8];
+};
+
+/* Pressure and friction on the surface of a wall around one node of the grid, times dt: impulses per area, N s/m2. */
+struct pressure {
+  long   node;
+  double normal, along[3];
+  double ease;             /* change of area times velocity by a unit pressure */
+  double excess, slide[3]; /* area times velocity into the wall, and along it */
+  double change, change_along[3];
+};
+
+struct touch_list; /* mpm/touches.c */
+
+/* Walls of a scene, and where one body touches them in this step. */
+struct walls_state {
+  int                n_walls;
+  struct wall        wall[MAX_WALLS];
+  struct touch_list *list;
+  struct touch      *touches;   /* those of wall i: [first_touch[i], first_touch[i + 1]) */
+  struct pressure   *pressures; /* likewise */
+  long               first_touch[MAX_WALLS + 1], first_pressure[MAX_WALLS + 1];
+};
+
+/** Whether the scene has such walls. */
+bool        walls_present(const struct scene *scene);
+enum status walls_create(struct sim *sim, struct mpm *m) MUST_CHECK;
+void        walls_destroy(struct mpm *m);
+
+/** Whether a wall is there at time t; before t = 0, while the start is sought: as at 0. */
+bool wall_present(const struct obstacle *body, double t);
+/** m/s, of the whole wall at time t; none before t = 0. */
+void wall_velocity(const struct obstacle *body, double t, double vel[3]);
+/** m: signed distance of x from wall i where it is now, negative inside; normal: out of it (NULL: not wanted). */
+double wall_distance(const struct mpm *m, int i, const double x[3], double normal[3]);
+
+/** Bodies lie on the walls that are there at the start: the lattice of a body that ends on a wall begins anywhere up to
+ *  a spacing above it, not half of one, and in steps on an oblique wall. Its lowest points reach down to it, skin_p. */
+void touches_lay_down(const struct sim *sim, struct mpm *m);
+/** Finds where a body touches which wall, at the places of the points and with the masses of its nodes. */
+enum status touches_find(struct sim *sim, struct mpm *m, int body) MUST_CHECK;
+enum status touches_create(const struct sim *sim, const struct mpm *m, struct walls_state *s) MUST_CHECK;
+void        touches_destroy(struct walls_state *s);
+
+#endif
