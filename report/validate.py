@@ -9,6 +9,7 @@ quick variants excepted. --record writes the values, to three digits, beside the
 import argparse
 import glob
 import json
+import math
 import os
 import platform
 import subprocess
@@ -62,6 +63,45 @@ def rows(scene, path, record):
     return lines
 
 
+def judge(case, relation, runs):
+    """What a relation between runs of a case comes to; None where a run is missing. "ratio": of the metric "of" in two variants; "order": the
+    smallest ratio of neighbours; "exponent": of a power law through {variant: number}, by least squares of logarithms."""
+    def value(variant):
+        scene = case if variant == "base" else f"{case}+{variant}"
+        record = runs.get(f"{scene} {relation.get('path', 'solid')}", {})
+        return record.get("metrics", {}).get(relation["of"], {}).get("value")
+
+    kind = next(key for key in ("ratio", "order", "exponent") if key in relation)
+    values = [value(variant) for variant in relation[kind]]
+    if None in values:
+        return None
+    if kind == "exponent":
+        x, y = [math.log(number) for number in relation[kind].values()], [math.log(v) for v in values]
+        mx, my = sum(x) / len(x), sum(y) / len(y)
+        return sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx) ** 2 for a in x)
+    if kind == "ratio":
+        return values[0] / values[1]
+    return min(after / before for before, after in zip(values, values[1:]))
+
+
+def relations(runs):
+    """{"case relation": figures} of cases/*/relations.json"""
+    found = {}
+    for file in sorted(glob.glob(os.path.join(ROOT, "cases", "*", "relations.json"))):
+        case = os.path.basename(os.path.dirname(file))
+        with open(file) as text:
+            for name, relation in json.load(text).items():
+                value = judge(case, relation, runs)
+                if value is None:
+                    continue
+                within = abs(value - relation["expected"]) <= relation["limit"] if "expected" in relation else \
+                    relation.get("least", -math.inf) <= value <= relation.get("most", math.inf)
+                wanted = f"{relation['expected']} +- {relation['limit']}" if "expected" in relation else \
+                    " and ".join(f"{word} {relation[word]}" for word in ("least", "most") if word in relation)
+                found[f"{case} {name}"] = {"value": value, "wanted": wanted, "pass": within}
+    return found
+
+
 def page(results):
     lines = ["# Validation", "",
              "Written by `./dev validate`: every case in full on every path it has limits for. `value` is compared with `limit`; what each metric is",
@@ -70,6 +110,10 @@ def page(results):
     for key in sorted(results["runs"]):
         scene, path = key.rsplit(" ", 1)
         lines += rows(scene, path, results["runs"][key])
+    found = relations(results["runs"])
+    if found:
+        lines += ["", "Relations between runs (`cases/<case>/relations.json`):", "", "| case | relation | value | wanted | |", "|---|---|---|---|---|"]
+        lines += [f"| {key.split()[0]} | {key.split()[1]} | {r['value']:.4g} | {r['wanted']} | {'ok' if r['pass'] else '**missed**'} |" for key, r in found.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -127,8 +171,11 @@ def main():
             file.write(page(results))
     if options.record:
         record_values(results["runs"])
+    apart = [key for key, r in relations(results["runs"]).items() if not r["pass"] and (not options.case or key.split()[0] in options.case)]
+    for key in apart:
+        print(f"relation missed: {key}")
     print(f"{len(selected) - missed} of {len(selected)} within their limits; written: {options.out}/README.md")
-    return 1 if missed else 0
+    return 1 if missed or apart else 0
 
 
 if __name__ == "__main__":
