@@ -147,7 +147,7 @@ enum status absorb_create(struct sim *sim, struct mpm *m)
   TRY(NEW(&shelf, 3 * g->size));
   struct speeds s = {shelf, shelf + g->size, shelf + 2 * g->size};
   gather_speeds(sim, m, &s);
-  for (int q = 0; q < 3; q++) boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, shelf + q * g->size);
+  for (int q = 0; q < 3; q++) boundary_fold(&m->kernel_grid, m->sides, 1, shelf + q * g->size);
   set_rates(sim, m, &s);
   mark_held(sim, m->absorb, shelf);
   memory_free(&shelf);

@@ -58,7 +58,7 @@ static void average_cells(struct sim *sim, struct mpm *m, int solid)
 static void average_rate(struct sim *sim, struct mpm *m, int solid)
 {
   const struct grid           *g = &sim->grid;
-  const struct side_condition *sides = sim->scene->solid_side;
+  const struct side_condition *sides = m->sides;
   struct box                   all = grid_all(g);
   const struct scatter_args    to_nodes = {
          .n = 2, .x = m->x_p, .weight = m->volume_p, .value = {NULL, m->rate_p}, .node = {m->share_nc, m->rate_nc}};
