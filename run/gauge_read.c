@@ -205,11 +205,27 @@ static double read_energy(const struct gauge_reader *r, const struct sim *sim)
          v[LEDGER_compression];
 }
 
+/* energy with what was taken since the start, without what was done: it stays, but for what no account sees */
+static double read_balance(const struct gauge_reader *r, const struct sim *sim)
+{
+  const double *v = sim->ledger.v;
+  double        taken = v[LEDGER_plastic] + v[LEDGER_friction] + v[LEDGER_damping] + v[LEDGER_absorbed];
+  return read_energy(r, sim) + taken + v[LEDGER_energy_out] - v[LEDGER_work_loads] - v[LEDGER_work_walls];
+}
+
 /* potential energy that is gone since the start */
 static double read_released(const struct gauge_reader *r, const struct sim *sim)
 {
   (void)r;
   return sim->ledger_start.v[LEDGER_potential] - sim->ledger.v[LEDGER_potential];
+}
+
+/* what is made of several entries of the ledger, J; NULL: no such word */
+static double (*find_sum(const char *of))(const struct gauge_reader *, const struct sim *)
+{
+  if (strcmp(of, "energy") == 0) return read_energy;
+  if (strcmp(of, "balance") == 0) return read_balance;
+  return strcmp(of, "released") == 0 ? read_released : NULL;
 }
 
 double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim)
@@ -347,8 +363,6 @@ int gauge_columns(const struct gauge *gauge) { return gauge->kind == GAUGE_LINE 
 enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge, int sample,
                                 const struct marker_finder *markers, struct gauge_reader *reader)
 {
-  const bool  energy = gauge->kind == GAUGE_INTEGRAL && strcmp(gauge->of, "energy") == 0;
-  const bool  released = gauge->kind == GAUGE_INTEGRAL && strcmp(gauge->of, "released") == 0;
   const char *unit = "J";
   memset(reader, 0, sizeof *reader);
   snprintf(reader->name, sizeof reader->name, "%s", gauge->name);
@@ -358,9 +372,10 @@ enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge
   if (gauge->kind == GAUGE_WALL) return create_wall(sim, gauge, reader);
   if (gauge->kind == GAUGE_EXTENT) return gauge_extent_create(sim, gauge, reader);
   reader->ledger = gauge->kind == GAUGE_INTEGRAL ? find_ledger(gauge->of, &unit) : -1;
-  if (reader->ledger < 0 && !energy && !released) return create_region(sim, gauge, reader);
+  reader->read = gauge->kind == GAUGE_INTEGRAL ? find_sum(gauge->of) : NULL;
+  if (reader->ledger < 0 && !reader->read) return create_region(sim, gauge, reader);
   snprintf(reader->unit, sizeof reader->unit, "%s", unit);
-  reader->read = energy ? read_energy : released ? read_released : read_ledger;
+  if (!reader->read) reader->read = read_ledger;
   return OK;
 }
 

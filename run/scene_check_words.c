@@ -50,6 +50,7 @@ static void add_ledger(struct words *words)
   };
   for (int i = 0; i < N_LEDGER; i++) add_word(words, "", entries[i], "");
   add_word(words, "", "energy", "");
+  add_word(words, "", "balance", "");
   add_word(words, "", "released", "");
 }
 

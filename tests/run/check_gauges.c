@@ -258,6 +258,14 @@ START_TEST(markers_and_ledger)
   r.sim.ledger_start.v[LEDGER_potential] = 5;
   r.sim.ledger.v[LEDGER_potential] = 2;
   ck_assert_double_eq(sample(&r, &e), 3);
+  snprintf(e.of, sizeof e.of, "energy");
+  ck_assert_double_eq(sample(&r, &e), 44);
+  snprintf(e.of, sizeof e.of, "balance");
+  r.sim.ledger.v[LEDGER_friction] = 100;
+  r.sim.ledger.v[LEDGER_plastic] = 200;
+  r.sim.ledger.v[LEDGER_work_walls] = 1000;
+  r.sim.ledger.v[LEDGER_work_loads] = 2000;
+  ck_assert_double_eq(sample(&r, &e), 344 - 3000);
   fake_destroy(&r);
 }
 END_TEST
