@@ -81,19 +81,23 @@ int grid_node_offsets(const struct grid *g, int axis, long *offset)
   return n;
 }
 
+/* one layer of ghosts across an axis, from the owned layer that is the same place */
+static void fill_layer(const struct grid *g, int n, int axis, int layer, double *field)
+{
+  struct box b = grid_all(g);
+  int        owned = ((layer % g->n[axis]) + g->n[axis]) % g->n[axis];
+  long       shift = (owned - layer) * g->stride[axis] * n;
+  b.lo[axis] = layer;
+  b.hi[axis] = layer + 1;
+  FOR_BOX(g, b, c)
+  for (int q = 0; q < n; q++) field[c * n + q] = field[c * n + q + shift];
+}
+
 void grid_fill_periodic(const struct grid *g, int n, double *field)
 {
   for (int d = 0; d < g->dim; d++) {
     if (!g->periodic[d]) continue;
-    struct box b = grid_all(g);
-    long       turn = g->n[d] * g->stride[d];
-    FOR_BOX(g, b, c)
-    {
-      int place[3];
-      grid_place(g, c, place);
-      long from = place[d] < 0 ? c + turn : place[d] >= g->n[d] ? c - turn : c;
-      if (from != c)
-        for (int q = 0; q < n; q++) field[c * n + q] = field[from * n + q];
-    }
+    for (int layer = 1; layer <= GHOST; layer++) fill_layer(g, n, d, -layer, field);
+    for (int layer = 0; layer <= GHOST; layer++) fill_layer(g, n, d, g->n[d] + layer, field);
   }
 }

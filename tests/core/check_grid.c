@@ -125,6 +125,29 @@ START_TEST(periodic_ghosts)
 }
 END_TEST
 
+/* a grid with fewer cells than ghosts goes round more than once */
+START_TEST(periodic_ghosts_of_a_narrow_grid)
+{
+  const double min[3] = {0};
+  const int    n[3] = {2, 1, 3};
+  struct grid  g;
+  double      *field;
+  grid_create(3, min, n, 1, (const bool[]){true, true, true}, &g);
+  struct box cells = grid_cells(&g), all = grid_all(&g);
+  must(NEW(&field, g.size));
+  FOR_BOX_SERIAL(&g, cells, c) field[c] = (double)c;
+  grid_fill_periodic(&g, 1, field);
+  FOR_BOX_SERIAL(&g, all, c)
+  {
+    int place[3];
+    grid_place(&g, c, place);
+    for (int d = 0; d < 3; d++) place[d] = (place[d] + 6 * n[d]) % n[d];
+    ck_assert_double_eq(field[c], (double)grid_at(&g, place[0], place[1], place[2]));
+  }
+  memory_free(&field);
+}
+END_TEST
+
 /* the parallel walk visits what the serial one does, once */
 START_TEST(walks_visit_once)
 {
@@ -149,6 +172,7 @@ int main(void)
   tcase_add_test(tcase, boxes_count_what_is_owned);
   tcase_add_test(tcase, offsets_lead_to_the_nodes);
   tcase_add_test(tcase, periodic_ghosts);
+  tcase_add_test(tcase, periodic_ghosts_of_a_narrow_grid);
   tcase_add_test(tcase, walks_visit_once);
   suite_add_tcase(suite, tcase);
   return run_suite(suite);
