@@ -125,17 +125,6 @@ static enum status meet(struct sim *sim, struct mpm *m, int body, struct sweep *
   return OK;
 }
 
-/* Points go where their nodes' velocities lead, which vanish into the wall on the mean over its surface only: what
- * crept in by a hair is put back on the surface. Returns how deep it was, m. */
-static double expel_point(const struct mpm *m, int wall, int dim, double *x_p)
-{
-  double x[3] = {0}, normal[3];
-  for (int d = 0; d < dim; d++) x[d] = x_p[d];
-  double distance = wall_distance(m, wall, x, normal);
-  for (int d = 0; d < dim && distance < 0; d++) x_p[d] -= distance * normal[d];
-  return fmax(0, -distance);
-}
-
 /* what a wall did in this step goes to its account, and it moves on */
 static void book(struct mpm *m, int account, const struct sweep *w, double dt)
 {
@@ -150,15 +139,55 @@ static void book(struct mpm *m, int account, const struct sweep *w, double dt)
   m->now.friction += w->lost;
 }
 
+/* Points go where their nodes' velocities lead, which vanish into the wall on the mean over its surface only: what
+ * crept in by a hair is put back on the surface and stopped there as a grain is, with Coulomb friction. A grain that
+ * lies alone needs that, as it has no surface that its nodes know well. Returns how deep it was, m. */
+static double expel_point(const struct mpm *m, int wall, long p, struct sweep *w)
+{
+  double x[3] = {0}, normal[3], u[3] = {0}, after[3], out, along = 0, *x_p = m->x_p + p * w->dim;
+  for (int d = 0; d < w->dim; d++) x[d] = x_p[d];
+  double distance = wall_distance(m, wall, x, normal), mass = m->mass_p[p];
+  if (distance >= 0) return 0;
+  for (int d = 0; d < w->dim; d++) {
+    x_p[d] -= distance * normal[d];
+    u[d] = m->vel_p[p * w->dim + d] - w->moves[d];
+  }
+  out = dot(u, normal);
+  if (out >= 0) return -distance;
+  for (int d = 0; d < 3; d++) along += (u[d] - out * normal[d]) * (u[d] - out * normal[d]);
+  double keeps = along > 0 ? fmax(0, 1 + w->friction * out / sqrt(along)) : 0;
+  for (int d = 0; d < w->dim; d++) {
+    after[d] = keeps * (u[d] - out * normal[d]);
+    w->impulse[d] += mass * (after[d] - u[d]);
+    w->lost += 0.5 * mass * ((u[d] - out * normal[d]) * (u[d] - out * normal[d]) - after[d] * after[d]);
+    m->vel_p[p * w->dim + d] = after[d] + w->moves[d];
+  }
+  return -distance;
+}
+
+static void add_impulse(struct mpm *m, int account, const struct sweep *w, double dt)
+{
+  struct wall_numbers *wall = &m->now.wall[account];
+  for (int d = 0; d < 3; d++) {
+    wall->force[d] += w->impulse[d] / dt;
+    wall->impulse[d] += w->impulse[d];
+    m->now.work_walls += w->impulse[d] * w->moves[d];
+  }
+  m->now.friction += w->lost;
+}
+
 enum status mpm_expel_points(struct sim *sim, double dt)
 {
   struct mpm         *m = mpm_of(sim);
   struct walls_state *s = m->walls;
-  int                 dim = sim->grid.dim;
   for (int i = 0; i < s->n_walls; i++) {
-    double *depth = &m->now.wall[s->wall[i].account].depth;
-    if (!wall_present(&s->wall[i].body, sim->t + 0.5 * dt)) continue;
-    for (long p = 0; p < m->points->n; p++) *depth = fmax(*depth, expel_point(m, i, dim, m->x_p + p * dim));
+    const struct wall *wall = &s->wall[i];
+    struct sweep       w = {.dim = sim->grid.dim, .friction = wall->body.friction};
+    double            *depth = &m->now.wall[wall->account].depth;
+    if (!wall_present(&wall->body, sim->t + 0.5 * dt)) continue;
+    wall_velocity(&wall->body, sim->t + 0.5 * dt, w.moves);
+    for (long p = 0; p < m->points->n; p++) *depth = fmax(*depth, expel_point(m, i, p, &w));
+    add_impulse(m, wall->account, &w, dt);
   }
   return OK;
 }

@@ -155,7 +155,7 @@ static const struct stage stages[] = {
      "only when nothing comes between, and a law has a history", at_once_historic, mpm_move_and_strain, mpm_stress_dt},
     {"mpm.move_markers", SLOT_nodes_to_points, "x_m x0_m mass_nc vel_new_nc", "x_m", "3.3",
      "only with loads or tracers", marked, mpm_move_markers, NULL},
-    {"mpm.expel_points", SLOT_nodes_to_points, "x_p", "x_p", "3.11",
+    {"mpm.expel_points", SLOT_nodes_to_points, "x_p vel_p mass_p", "x_p vel_p", "3.11",
      "only when the scene has obstacles or a side has friction", walled, mpm_expel_points, NULL},
     {"mpm.remap_momentum", SLOT_remap, "x_p vel_p mass_p", "x_p mass_nc mom_nc vel_new_nc gradv_p", "3.1",
      "only when numerics.stress_timing is musl", musl, mpm_remap_momentum, NULL},

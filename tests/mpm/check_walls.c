@@ -256,6 +256,33 @@ START_TEST(points_stay_out)
 }
 END_TEST
 
+/* one point on the floor slides v^2/(2 mu g) far and lies still; what the floor gave is its weight and its momentum */
+START_TEST(a_grain_alone)
+{
+  static const char text[] =
+      "{" GRID      SOIL
+      "\"gravity\": [0, -9.81], \"boundary\": {\"solid\": {\"y_min\": {\"friction\": 0.5}}}, \"solids\": {\"s\": "
+      "{\"material\": \"m\", \"velocity\": [1, 0], \"shape\": {\"box\": {\"min\": [0.5, 0], \"max\": [0.55, 0.05]}}}}}";
+  const char      *sets[] = {bases[_i], "numerics.aflip_beta=0.05", NULL};
+  struct scene_run run;
+  double           speed = 0;
+  scene_open_with(text, sets, &run);
+  const struct mpm *m = mpm_of(run.sim);
+  ck_assert_int_eq(m->points->n, 1);
+  while (run.sim->t < 0.5) {
+    scene_step(&run, 5e-4);
+    speed = fmax(speed, fabs(m->vel_p[1]));
+  }
+  ck_assert_double_eq_tol(m->displacement_p[0], 1 / (2 * 0.5 * 9.81), 1e-3);
+  ck_assert_double_lt(speed, 0.01);
+  ck_assert_double_lt(fabs(m->vel_p[0]), 1e-12);
+  ck_assert_double_eq_tol(account(&run, "y_min")->impulse[0], -m->mass_p[0], 1e-9);
+  ck_assert_double_eq_tol(account(&run, "y_min")->impulse[1], 0.5 * 9.81 * m->mass_p[0], 0.02 * m->mass_p[0]);
+  ck_assert_double_eq_tol(m->now.friction, 0.5 * m->mass_p[0], 0.02 * m->mass_p[0]);
+  scene_close(&run);
+}
+END_TEST
+
 int main(void)
 {
   Suite *suite = suite_create("walls");
@@ -267,6 +294,7 @@ int main(void)
   tcase_add_loop_test(tcase, side_or_obstacle, BASIS_GIMP, 4);
   tcase_add_loop_test(tcase, gap_closes, BASIS_GIMP, 4);
   tcase_add_test(tcase, points_stay_out);
+  tcase_add_loop_test(tcase, a_grain_alone, BASIS_QUADRATIC, 4);
   suite_add_tcase(suite, tcase);
   return run_suite(suite);
 }
