@@ -3,15 +3,18 @@
 #include "mpm/stages.h"
 #include "mpm/walls.h"
 
+#include "constitutive/constitutive.h"
+#include "core/parallel.h"
+
 #include <math.h>
 #include <string.h>
 
 /* corrections of all pressures in a step */
 enum { SWEEPS = 5 };
 
-/* One wall's part of a step. */
+/* One wall and one body. */
 struct sweep {
-  int           dim;
+  int           dim, wall, body;
   const double *vel_old_nc; /* [size][dim] m/s, of the body at the start of the step */
   double       *vel_nc;     /* at its end, changed */
   double        moves[3];   /* m/s, the wall */
@@ -21,16 +24,24 @@ struct sweep {
   double        lost;       /* J to friction, added to */
 };
 
+/* every touch, every pressure of a wall and a body */
+#define FOR_TOUCHES(s, w, i)                                                                                           \
+  for (long i = (s)->of[(w)->body].touch[(w)->wall]; i < (s)->of[(w)->body].touch[(w)->wall + 1]; i++)
+#define FOR_PRESSURES(s, w, k)                                                                                         \
+  for (long k = (s)->of[(w)->body].pressure[(w)->wall]; k < (s)->of[(w)->body].pressure[(w)->wall + 1]; k++)
+
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* area times velocity of the body's surface into the wall, beyond what closes the gap, and along it */
-static void weigh_velocities(struct walls_state *s, int wall, const struct sweep *w)
+static void weigh_velocities(struct walls_state *s, const struct sweep *w)
 {
-  for (long k = s->first_pressure[wall]; k < s->first_pressure[wall + 1]; k++) {
+  FOR_PRESSURES(s, w, k)
+  {
     s->pressures[k].excess = 0;
     memset(s->pressures[k].slide, 0, sizeof s->pressures[k].slide);
   }
-  for (long i = s->first_touch[wall]; i < s->first_touch[wall + 1]; i++) {
+  FOR_TOUCHES(s, w, i)
+  {
     const struct touch *t = &s->touches[i];
     double              u[3] = {0}, out;
     for (int d = 0; d < w->dim; d++) u[d] = w->vel_nc[t->node * w->dim + d] - w->moves[d];
@@ -79,9 +90,10 @@ static double gather(const struct walls_state *s, const struct touch *t, int dim
 }
 
 /* the changes of the pressures act on the nodes */
-static void push_nodes(const struct walls_state *s, int wall, struct sweep *w)
+static void push_nodes(const struct walls_state *s, const struct sweep *w)
 {
-  for (long i = s->first_touch[wall]; i < s->first_touch[wall + 1]; i++) {
+  FOR_TOUCHES(s, w, i)
+  {
     const struct touch *t = &s->touches[i];
     double              rub[3], press = gather(s, t, w->dim, true, rub);
     for (int d = 0; d < w->dim; d++)
@@ -91,9 +103,10 @@ static void push_nodes(const struct walls_state *s, int wall, struct sweep *w)
 
 /* What all sweeps together gave the body. Friction works on the mean of the slips at both ends of the step: with the
  * slip after the other forces, what sticks would seem to lose (dt f)^2/2m in every step. */
-static void sum_up(const struct walls_state *s, int wall, struct sweep *w)
+static void sum_up(const struct walls_state *s, struct sweep *w)
 {
-  for (long i = s->first_touch[wall]; i < s->first_touch[wall + 1]; i++) {
+  FOR_TOUCHES(s, w, i)
+  {
     const struct touch *t = &s->touches[i];
     double              rub[3], press = gather(s, t, w->dim, false, rub);
     for (int d = 0; d < w->dim; d++) {
@@ -105,48 +118,64 @@ static void sum_up(const struct walls_state *s, int wall, struct sweep *w)
   }
 }
 
-static enum status meet(struct sim *sim, struct mpm *m, int body, struct sweep *sweeps)
+/* pressures and velocities of one body are corrected in turns */
+static void sweep_all(struct walls_state *s, struct sweep *sweeps)
 {
-  struct walls_state *s = m->walls;
-  TRY(touches_find(sim, m, body));
-  for (int i = 0; i < s->n_walls; i++) {
-    sweeps[i].vel_old_nc = m->bodies[body].vel_nc;
-    sweeps[i].vel_nc = m->bodies[body].vel_new_nc;
-  }
   for (int n = 0; n < SWEEPS; n++)
     for (int i = 0; i < s->n_walls; i++) {
-      weigh_velocities(s, i, &sweeps[i]);
-      for (long k = s->first_pressure[i]; k < s->first_pressure[i + 1]; k++)
-        correct_pressure(&s->pressures[k], sweeps[i].friction);
-      push_nodes(s, i, &sweeps[i]);
+      weigh_velocities(s, &sweeps[i]);
+      FOR_PRESSURES(s, &sweeps[i], k) correct_pressure(&s->pressures[k], sweeps[i].friction);
+      push_nodes(s, &sweeps[i]);
     }
-  for (int i = 0; i < s->n_walls; i++) sum_up(s, i, &sweeps[i]);
-  boundary_ghosts(&m->kernel_grid, m->sides, sim->grid.dim, sim->t + sim->dt, m->bodies[body].vel_new_nc);
-  return OK;
 }
 
-/* what a wall did in this step goes to its account, and it moves on */
-static void book(struct mpm *m, int account, const struct sweep *w, double dt)
+static void prepare(const struct sim *sim, const struct mpm *m, int body, struct sweep *sweeps)
 {
-  struct wall_numbers *wall = &m->now.wall[account];
+  for (int i = 0; i < m->walls->n_walls; i++) {
+    const struct wall *wall = &m->walls->wall[i];
+    sweeps[i] = (struct sweep){.dim = sim->grid.dim, .wall = i, .body = body, .friction = wall->body.friction};
+    sweeps[i].vel_old_nc = m->bodies[body].vel_nc;
+    sweeps[i].vel_nc = m->bodies[body].vel_new_nc;
+    memcpy(sweeps[i].moved, m->now.wall[wall->account].velocity, sizeof sweeps[i].moved);
+    wall_velocity(&wall->body, sim->t + 0.5 * sim->dt, sweeps[i].moves);
+  }
+}
+
+void walls_meet_again(const struct sim *sim, struct mpm *m, int body)
+{
+  struct sweep sweeps[MAX_WALLS];
+  prepare(sim, m, body, sweeps);
+  sweep_all(m->walls, sweeps);
+}
+
+/* what walls did to a body goes to their accounts */
+static void book(struct mpm *m, const struct sweep *w, double dt)
+{
+  struct wall_numbers *wall = &m->now.wall[m->walls->wall[w->wall].account];
   for (int d = 0; d < 3; d++) {
-    wall->force[d] = w->impulse[d] / dt;
+    wall->force[d] += w->impulse[d] / dt;
     wall->impulse[d] += w->impulse[d];
-    wall->displacement[d] += dt * w->moves[d];
-    wall->velocity[d] = w->moves[d];
     m->now.work_walls += w->impulse[d] * 0.5 * (w->moved[d] + w->moves[d]);
   }
   m->now.friction += w->lost;
 }
 
+static void move_wall(const struct sim *sim, struct mpm *m, int i)
+{
+  const struct wall   *wall = &m->walls->wall[i];
+  struct wall_numbers *now = &m->now.wall[wall->account];
+  wall_velocity(&wall->body, sim->t + 0.5 * sim->dt, now->velocity);
+  for (int d = 0; d < 3; d++) now->displacement[d] += sim->dt * now->velocity[d];
+}
+
 /* Points go where their nodes' velocities lead, which vanish into the wall on the mean over its surface only: what
  * crept in by a hair is put back on the surface and stopped there as a grain is, with Coulomb friction. A grain that
  * lies alone needs that, as it has no surface that its nodes know well. Returns how deep it was, m. */
-static double expel_point(const struct mpm *m, int wall, long p, struct sweep *w)
+static double expel_point(const struct mpm *m, long p, struct sweep *w)
 {
   double x[3] = {0}, normal[3], u[3] = {0}, after[3], out, along = 0, *x_p = m->x_p + p * w->dim;
   for (int d = 0; d < w->dim; d++) x[d] = x_p[d];
-  double distance = wall_distance(m, wall, x, normal), mass = m->mass_p[p];
+  double distance = wall_distance(m, w->wall, x, normal), mass = m->mass_p[p];
   if (distance >= 0) return 0;
   for (int d = 0; d < w->dim; d++) {
     x_p[d] -= distance * normal[d];
@@ -165,15 +194,18 @@ static double expel_point(const struct mpm *m, int wall, long p, struct sweep *w
   return -distance;
 }
 
-static void add_impulse(struct mpm *m, int account, const struct sweep *w, double dt)
+/* one after the other, as their impulses are summed; few blocks reach a wall */
+static void expel_from(const struct sim *sim, struct mpm *m, struct sweep *w, double *depth)
 {
-  struct wall_numbers *wall = &m->now.wall[account];
-  for (int d = 0; d < 3; d++) {
-    wall->force[d] += w->impulse[d] / dt;
-    wall->impulse[d] += w->impulse[d];
-    m->now.work_walls += w->impulse[d] * w->moves[d];
+  const struct points *points = m->points;
+  for (long r = 0; r < points->n_runs; r++) {
+    struct kernel_run run = {.begin = points->start[r], .end = points->start[r + 1]};
+    points_block_corner(points, r / points->n_groups, run.corner);
+    if (scene_material(sim->scene, (int)(r % points->n_groups))->model->held || run.begin == run.end ||
+        wall_distance_of_block(sim, m, w->wall, &run) > 0)
+      continue;
+    for (long p = run.begin; p < run.end; p++) *depth = fmax(*depth, expel_point(m, p, w));
   }
-  m->now.friction += w->lost;
 }
 
 enum status mpm_expel_points(struct sim *sim, double dt)
@@ -181,13 +213,13 @@ enum status mpm_expel_points(struct sim *sim, double dt)
   struct mpm         *m = mpm_of(sim);
   struct walls_state *s = m->walls;
   for (int i = 0; i < s->n_walls; i++) {
-    const struct wall *wall = &s->wall[i];
-    struct sweep       w = {.dim = sim->grid.dim, .friction = wall->body.friction};
-    double            *depth = &m->now.wall[wall->account].depth;
-    if (!wall_present(&wall->body, sim->t + 0.5 * dt)) continue;
-    wall_velocity(&wall->body, sim->t + 0.5 * dt, w.moves);
-    for (long p = 0; p < m->points->n; p++) *depth = fmax(*depth, expel_point(m, i, p, &w));
-    add_impulse(m, wall->account, &w, dt);
+    struct wall_numbers *now = &m->now.wall[s->wall[i].account];
+    struct sweep         w = {.dim = sim->grid.dim, .wall = i, .friction = s->wall[i].body.friction};
+    if (!wall_present(&s->wall[i].body, sim->t + 0.5 * dt)) continue;
+    memcpy(w.moves, now->velocity, sizeof w.moves);
+    memcpy(w.moved, now->velocity, sizeof w.moved);
+    expel_from(sim, m, &w, &now->depth);
+    book(m, &w, dt);
   }
   return OK;
 }
@@ -196,13 +228,18 @@ enum status mpm_meet_walls(struct sim *sim, double dt)
 {
   struct mpm         *m = mpm_of(sim);
   struct walls_state *s = m->walls;
-  struct sweep        sweeps[MAX_WALLS] = {{0}};
-  for (int i = 0; i < s->n_walls; i++) {
-    sweeps[i] = (struct sweep){.dim = sim->grid.dim, .friction = s->wall[i].body.friction};
-    wall_velocity(&s->wall[i].body, sim->t + 0.5 * dt, sweeps[i].moves);
-    memcpy(sweeps[i].moved, m->now.wall[s->wall[i].account].velocity, sizeof sweeps[i].moved);
+  TRY(touches_find(sim, m));
+  for (int i = 0; i < s->n_walls; i++) memset(m->now.wall[s->wall[i].account].force, 0, 3 * sizeof(double));
+  for (int b = 0; b < m->n_bodies; b++) {
+    struct sweep sweeps[MAX_WALLS];
+    prepare(sim, m, b, sweeps);
+    sweep_all(s, sweeps);
+    for (int i = 0; i < s->n_walls; i++) {
+      sum_up(s, &sweeps[i]);
+      book(m, &sweeps[i], dt);
+    }
+    boundary_ghosts(&m->kernel_grid, m->sides, sim->grid.dim, sim->t + dt, m->bodies[b].vel_new_nc);
   }
-  for (int b = 0; b < m->n_bodies; b++) TRY(meet(sim, m, b, sweeps));
-  for (int i = 0; i < s->n_walls; i++) book(m, s->wall[i].account, &sweeps[i], dt);
+  for (int i = 0; i < s->n_walls; i++) move_wall(sim, m, i);
   return OK;
 }

@@ -1,6 +1,7 @@
 /* Points to nodes: mass, momentum, internal force; tractions of loaded surfaces; nodal velocities. theory 3.1 */
 #include "mpm/sides.h"
 #include "mpm/stages.h"
+#include "mpm/walls.h"
 
 #include "constitutive/constitutive.h"
 #include "core/parallel.h"
@@ -120,6 +121,7 @@ enum status mpm_remap_momentum(struct sim *sim, double dt)
     const struct body_nodes *own = &m->bodies[b];
     sides_fold(sim, m, b, FOLD_REMAP, sim->t + dt);
     mpm_velocities(sim, m, own, sim->t + dt, own->vel_new_nc);
+    if (m->walls) walls_meet_again(sim, m, b);
     boundary_ghosts(&m->kernel_grid, sides, sim->grid.dim, sim->t + dt, own->vel_new_nc);
   }
   mpm_gather_gradient(sim, m, m->gradv_p);

@@ -70,6 +70,7 @@ enum status touches_create(const struct sim *sim, const struct mpm *m, struct wa
     int kind = m->sides[side].kind;
     s->list->mirrors[side].kind = kind == SIDE_OPEN || kind == SIDE_PERIODIC ? kind : SIDE_SLIP;
   }
+  TRY(NEW(&s->of, m->n_bodies));
   s->list->touch_room = s->list->pressure_room = ROOM;
   TRY(NEW(&s->touches, ROOM));
   return NEW(&s->pressures, ROOM);
@@ -83,6 +84,7 @@ void touches_destroy(struct walls_state *s)
     memory_free(&s->list->place);
   }
   memory_free(&s->list);
+  memory_free(&s->of);
   memory_free(&s->touches);
   memory_free(&s->pressures);
 }
@@ -97,6 +99,13 @@ static double reach(const struct sim *sim, const struct mpm *m, const double nor
   return support[m->kernels->basis] * sim->grid.h * (fabs(normal[0]) + fabs(normal[1]) + fabs(normal[2]));
 }
 
+/* m: the same for any normal, or more */
+static double farthest_reach(const struct sim *sim, const struct mpm *m)
+{
+  static const double diagonal[3] = {1, 1, 1};
+  return reach(sim, m, diagonal);
+}
+
 /* All points that reach a node within `reach` of the wall must speak, else the body would seem to end there. */
 static void tell_nodes(const struct sim *sim, const struct mpm *m, int wall, long p)
 {
@@ -105,7 +114,9 @@ static void tell_nodes(const struct sim *sim, const struct mpm *m, int wall, lon
   long               node[MAX_SUPPORT];
   double             w[MAX_SUPPORT], slope[MAX_SUPPORT][3], x[3], y[3], normal[3];
   place_of(m, p, x);
-  double distance = wall_distance(m, wall, x, normal);
+  double distance = wall_distance(m, wall, x, NULL);
+  if (distance >= 2 * farthest_reach(sim, m)) return;
+  wall_distance(m, wall, x, normal);
   if (distance >= 2 * reach(sim, m, normal)) return;
   double overlap = half_width(sim, m, p, normal) + m->skin_p[p] - distance;
   m->kernels->weights(&m->kernel_grid, x, node, w, slope);
@@ -122,16 +133,6 @@ static void tell_nodes(const struct sim *sim, const struct mpm *m, int wall, lon
     told[DISTANCE] += w[q] * away;
     list->overlap[node[q]] = fmax(list->overlap[node[q]], overlap);
   }
-}
-
-/* Whether points of a block may be near enough to tell anything. */
-static bool block_near(const struct sim *sim, const struct mpm *m, int wall, const struct kernel_run *run)
-{
-  static const double diagonal[3] = {1, 1, 1};
-  double              centre[3] = {0}, edge = m->points->block_edge;
-  for (int d = 0; d < sim->grid.dim; d++) centre[d] = sim->grid.min[d] + (run->corner[d] + 0.5 * edge) * sim->grid.h;
-  double radius = (0.5 * edge + BLOCK_MARGIN) * sim->grid.h * sqrt(sim->grid.dim);
-  return wall_distance(m, wall, centre, NULL) < radius + 2 * reach(sim, m, diagonal);
 }
 
 /* on a periodic axis the deepest overlap of all images counts for a node */
@@ -156,7 +157,7 @@ static void ask_points(struct sim *sim, struct mpm *m, int body, int wall)
   FOR_RUNS(m->points, &sim->grid, run, group)
   {
     if (sim->scene->solids[group].body != body || scene_material(sim->scene, group)->model->held) continue;
-    if (!block_near(sim, m, wall, &run)) continue;
+    if (wall_distance_of_block(sim, m, wall, &run) >= 2 * farthest_reach(sim, m)) continue;
     for (long p = run.begin; p < run.end; p++) tell_nodes(sim, m, wall, p);
   }
   boundary_fold(&m->kernel_grid, list->mirrors, TOLD, (double *)list->told);
@@ -285,14 +286,15 @@ static enum status touch_wall(struct sim *sim, struct mpm *m, int body, int wall
   return OK;
 }
 
-enum status touches_find(struct sim *sim, struct mpm *m, int body)
+enum status touches_find(struct sim *sim, struct mpm *m)
 {
   struct walls_state *s = m->walls;
   s->list->n_touches = s->list->n_pressures = 0;
-  for (int i = 0; i < s->n_walls; i++) {
-    TRY(touch_wall(sim, m, body, i));
-    s->first_touch[i + 1] = s->list->n_touches;
-    s->first_pressure[i + 1] = s->list->n_pressures;
-  }
+  for (int body = 0; body < m->n_bodies; body++)
+    for (int i = 0; i <= s->n_walls; i++) {
+      s->of[body].touch[i] = s->list->n_touches;
+      s->of[body].pressure[i] = s->list->n_pressures;
+      if (i < s->n_walls) TRY(touch_wall(sim, m, body, i));
+    }
   return OK;
 }

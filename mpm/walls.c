@@ -68,6 +68,15 @@ double wall_distance(const struct mpm *m, int i, const double x[3], double norma
   return shape_distance(&wall->body.shape, at);
 }
 
+double wall_distance_of_block(const struct sim *sim, const struct mpm *m, int i, const struct kernel_run *run)
+{
+  const struct grid *g = &sim->grid;
+  double             centre[3] = {0}, edge = m->points->block_edge;
+  double             step = 0.5; /* cells that a point moves at most until the next sort */
+  for (int d = 0; d < g->dim; d++) centre[d] = g->min[d] + (run->corner[d] + 0.5 * edge) * g->h;
+  return wall_distance(m, i, centre, NULL) - (0.5 * edge + BLOCK_MARGIN + step) * g->h * sqrt(g->dim);
+}
+
 double mpm_obstacle_distance(const struct sim *sim, const double x[3], double t, double normal[3])
 {
   const struct mpm *m = mpm_of(sim);

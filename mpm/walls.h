@@ -34,14 +34,19 @@ struct pressure {
 
 struct touch_list; /* mpm/touches.c */
 
-/* Walls of a scene, and where one body touches them in this step. */
+/* Where the touches and pressures of a body begin: those of wall i are [i] up to [i + 1]. */
+struct touch_range {
+  long touch[MAX_WALLS + 1], pressure[MAX_WALLS + 1];
+};
+
+/* Walls of a scene, and where bodies touch them in this step. */
 struct walls_state {
-  int                n_walls;
-  struct wall        wall[MAX_WALLS];
-  struct touch_list *list;
-  struct touch      *touches;   /* those of wall i: [first_touch[i], first_touch[i + 1]) */
-  struct pressure   *pressures; /* likewise */
-  long               first_touch[MAX_WALLS + 1], first_pressure[MAX_WALLS + 1];
+  int                 n_walls;
+  struct wall         wall[MAX_WALLS];
+  struct touch_list  *list;
+  struct touch       *touches;
+  struct pressure    *pressures;
+  struct touch_range *of; /* [bodies] */
 };
 
 /** Whether the scene has such walls. */
@@ -56,11 +61,16 @@ void wall_velocity(const struct obstacle *body, double t, double vel[3]);
 /** m: signed distance of x from wall i where it is now, negative inside; normal: out of it (NULL: not wanted). */
 double wall_distance(const struct mpm *m, int i, const double x[3], double normal[3]);
 
+/** m: the least that a point of a block may be away from wall i, before the points are sorted again. */
+double wall_distance_of_block(const struct sim *sim, const struct mpm *m, int i, const struct kernel_run *run);
+
 /** Bodies lie on the walls that are there at the start: the lattice of a body that ends on a wall begins anywhere up to
  *  a spacing above it, not half of one, and in steps on an oblique wall. Its lowest points reach down to it, skin_p. */
 void touches_lay_down(const struct sim *sim, struct mpm *m);
-/** Finds where a body touches which wall, at the places of the points and with the masses of its nodes. */
-enum status touches_find(struct sim *sim, struct mpm *m, int body) MUST_CHECK;
+/** Finds where which body touches which wall, at the places of the points and with the masses of the nodes. */
+enum status touches_find(struct sim *sim, struct mpm *m) MUST_CHECK;
+/** MUSL: the velocities that were gathered again meet the walls again, with the impulses of the step in stock. */
+void        walls_meet_again(const struct sim *sim, struct mpm *m, int body);
 enum status touches_create(const struct sim *sim, const struct mpm *m, struct walls_state *s) MUST_CHECK;
 void        touches_destroy(struct walls_state *s);
 

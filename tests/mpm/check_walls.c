@@ -45,7 +45,7 @@ START_TEST(uniform_pressure_is_balanced)
     const char      *sets[] = {bases[basis], NULL};
     struct scene_run run;
     double           n[2], moved = 0, pushed = 0, x[3];
-    open_half(0.1 + 0.13 * _i, basis % 2 * 0.5, sets, &run, n);
+    open_half(0.1 + 0.15 * _i, basis % 2 * 0.5, sets, &run, n);
     const struct mpm *m = mpm_of(run.sim);
     for (long p = 0; p < m->points->n; p++) {
       m->stress_p[6 * p + XX] = -1e3 * n[0] * n[0];
@@ -80,7 +80,7 @@ START_TEST(column_at_rest)
       "-10], " SOIL
       "\"solids\": {\"s\": {\"material\": \"m\", \"shape\": {\"box\": {\"min\": [null, %g], \"max\": [null, 0.9]}}}}, "
       "\"obstacles\": {\"floor\": {\"shape\": {\"half_space\": {\"point\": [0, %g], \"normal\": [0, 1]}}}}}";
-  double floor = 0.2 + 0.013 * _i;
+  double floor = 0.2 + 0.021 * _i;
   for (int basis = 0; basis < 4; basis++) {
     char             text[1024];
     const char      *sets[] = {bases[basis], "numerics.rest_tolerance=1e-6", NULL};
@@ -152,22 +152,29 @@ END_TEST
 /* beyond the angle of the plane the block stays, and nothing is lost; what moves is less than 1e-5 h */
 START_TEST(sticks)
 {
-  const char      *sets[] = {bases[_i],       "solids.s.velocity=[0, 0]",     "obstacles.slope.friction=0.7",
-                             "start=at_rest", "numerics.rest_tolerance=1e-5", NULL};
-  struct scene_run run;
-  scene_open_with(BLOCK, sets, &run);
-  const struct mpm *m = mpm_of(run.sim);
-  scene_steps(&run, 300, INFINITY);
-  for (long p = 0; p < m->points->n; p++)
-    for (int d = 0; d < 2; d++) ck_assert_double_lt(fabs(m->displacement_p[2 * p + d]), 1e-6);
-  double weight = 9.81 * scene_ledger(&run).v[LEDGER_mass_solid];
-  ck_assert_double_eq_tol(along(account(&run, "slope")->force, down), -0.5 * weight, 1e-3 * weight);
-  ck_assert_double_lt(m->now.friction, 1e-7 * weight);
-  scene_close(&run);
+  for (int musl = 0; musl < 2; musl++) {
+    const char      *sets[] = {bases[_i],
+                               "solids.s.velocity=[0, 0]",
+                               "obstacles.slope.friction=0.7",
+                               "start=at_rest",
+                               "numerics.rest_tolerance=1e-5",
+                          musl ? "numerics.stress_timing=musl" : NULL,
+                               NULL};
+    struct scene_run run;
+    scene_open_with(BLOCK, sets, &run);
+    const struct mpm *m = mpm_of(run.sim);
+    scene_steps(&run, 300, INFINITY);
+    for (long p = 0; p < m->points->n; p++)
+      for (int d = 0; d < 2; d++) ck_assert_double_lt(fabs(m->displacement_p[2 * p + d]), 1e-6);
+    double weight = 9.81 * scene_ledger(&run).v[LEDGER_mass_solid];
+    ck_assert_double_eq_tol(along(account(&run, "slope")->force, down), -0.5 * weight, 1e-3 * weight);
+    ck_assert_double_lt(m->now.friction, 1e-7 * weight);
+    scene_close(&run);
+  }
 }
 END_TEST
 
-/* the mirror image of the scene gives the mirror image of the motion: a side with friction is an obstacle there */
+/* a side with friction does what an obstacle there does */
 START_TEST(side_or_obstacle)
 {
   static const char side[] =
@@ -287,8 +294,8 @@ int main(void)
 {
   Suite *suite = suite_create("walls");
   TCase *tcase = tcase_create("walls");
-  tcase_add_loop_test(tcase, uniform_pressure_is_balanced, 0, 8);
-  tcase_add_loop_test(tcase, column_at_rest, 0, 8);
+  tcase_add_loop_test(tcase, uniform_pressure_is_balanced, 0, 7);
+  tcase_add_loop_test(tcase, column_at_rest, 0, 5);
   tcase_add_loop_test(tcase, coulomb, BASIS_GIMP, 4);
   tcase_add_loop_test(tcase, sticks, BASIS_GIMP, 4);
   tcase_add_loop_test(tcase, side_or_obstacle, BASIS_GIMP, 4);

@@ -20,6 +20,11 @@ static const struct {
 } scenes[] = {
     {SOIL "}", "numerics.stress_timing=usl"},
     {SOIL "}", "numerics.stress_timing=musl"},
+    {SOIL
+     ", \"boundary\": {\"solid\": {\"y_min\": {\"friction\": 0.4}}}, \"obstacles\": {\"wall\": {\"shape\": "
+     "{\"half_space\": {\"point\": [0.42, 0], \"normal\": [-1, 0.1]}}}}, \"gauges\": {\"left\": {\"kind\": \"wall\", "
+     "\"on\": \"x_min\", \"of\": \"force_x\"}}}",
+     "numerics.stress_timing=musl"},
     {SOIL WATER("ice") "}", "numerics.pressure_solver=direct"},
     {SOIL WATER("ice") "}", "numerics.pressure_solver=hypre"},
     {SOIL WATER("twopoint") "}", "numerics.basis=cubic"},
