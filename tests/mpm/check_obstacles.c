@@ -58,6 +58,27 @@ START_TEST(moving_plate)
 }
 END_TEST
 
+/* a side that moves along itself drags with its friction, a smooth one not at all */
+START_TEST(moving_side)
+{
+  static const char text[] =
+      "{" GRID      SOIL
+      "\"gravity\": [0, -9.81], \"boundary\": {\"solid\": {\"y_min\": {\"velocity\": [2, 0], \"friction\": "
+      "0.3}}}, \"solids\": {\"s\": " BLOCK(0.5, 0, 1, 0.2) "}}";
+  static const char *const smooth[] = {"boundary.solid.y_min.friction=0", NULL};
+  for (int i = 0; i < 2; i++) {
+    struct scene_run run;
+    scene_open_with(text, i ? smooth : NULL, &run);
+    while (run.sim->t < 0.3) scene_step(&run, 5e-4);
+    struct ledger l = scene_ledger(&run);
+    double        friction = i ? 0 : 0.3, t = run.sim->t, speed = friction * 9.81 * t;
+    ck_assert_double_eq_tol(l.v[LEDGER_momentum_x] / 100, speed, 0.01 * speed + 1e-12);
+    ck_assert_double_eq_tol(l.v[LEDGER_work_walls], friction * 981 * 2 * t, 0.01 * friction * 981 * 2 * t + 1e-12);
+    scene_close(&run);
+  }
+}
+END_TEST
+
 /* a gate holds a body until its time, and a floor comes when it is told */
 START_TEST(gates)
 {
@@ -248,7 +269,8 @@ END_TEST
 
 static void bits_of(int threads, double *x, long *n)
 {
-  static const char *const sets[] = {"grid.h=0.025", "obstacles.plate.friction=0.3", "solids.s.velocity=[1, -1]", NULL};
+  static const char *const sets[] = {"grid.h=0.05", "start=zero", "obstacles.plate.friction=0.3",
+                                     "solids.s.velocity=[1, -1]", NULL};
   struct scene_run         run;
   scene_open_with(PLATE, sets, &run);
   parallel_set_threads(threads);
@@ -276,6 +298,7 @@ int main(void)
   Suite *suite = suite_create("obstacles");
   TCase *tcase = tcase_create("obstacles");
   tcase_add_test(tcase, moving_plate);
+  tcase_add_test(tcase, moving_side);
   tcase_add_test(tcase, gates);
   tcase_add_test(tcase, before_the_start);
   tcase_add_test(tcase, fast_walls);
