@@ -255,6 +255,9 @@ static enum status check_obstacles(struct reader *reader, const struct scene *sc
   for (int i = 0; i < scene->n_obstacles; i++) {
     snprintf(reader->path, sizeof reader->path, "obstacles.%s", scene->obstacles[i].name);
     TRY(check_obstacle(reader, scene, &scene->obstacles[i]));
+    if (scene->fluid.present && scene->obstacles[i].until > 0)
+      return reader_fail(reader, "it stops solids only and the fluid would flow through it; make it a solid of model "
+                                 "rigid, or leave the fluid out");
   }
   return OK;
 }
