@@ -103,6 +103,59 @@ START_TEST(solids_are_smoothed_apart)
 }
 END_TEST
 
+/* ---- what it is for: a column of dry sand whose gate is taken away ---- */
+
+#define COLUMN                                                                                                         \
+  "{\"grid\": {\"min\": [0, 0], \"max\": [0.3976, 0.1624], \"h\": 0.0056}, \"time\": {\"end\": 1}, \"gravity\": [0, "  \
+  "-9.81],"                                                                                                            \
+  "\"materials\": {\"sand\": {\"model\": \"mohr_coulomb\", \"young\": 1e6, \"poisson\": 0.3, \"density\": 2500,"       \
+  "\"friction_angle_deg\": 28}}, \"solids\": {\"column\": {\"material\": \"sand\", \"shape\": {\"box\": {\"min\": "    \
+  "[0, 0],"                                                                                                            \
+  "\"max\": [0.056, 0.1344]}}}}, \"boundary\": {\"solid\": {\"y_min\": {\"friction\": 0.53}}},"                        \
+  "\"obstacles\": {\"gate\": {\"shape\": {\"half_space\": {\"point\": [0.056, 0], \"normal\": [-1, 0]}}, \"until\": "  \
+  "0}},"                                                                                                               \
+  "\"numerics\": {\"aflip_beta\": 0.01}}"
+
+/* Pa: standard deviation of sigma_yy about its mean over the points within 2 h along both axes */
+static double unevenness(const struct scene_run *run)
+{
+  const struct mpm *m = mpm_of(run->sim);
+  double            reach = 2 * run->sim->grid.h, sum = 0, square = 0, n = (double)m->points->n;
+  for (long p = 0; p < m->points->n; p++) {
+    double mean = 0, around = 0;
+    for (long q = 0; q < m->points->n; q++) {
+      if (fabs(m->x_p[2 * q] - m->x_p[2 * p]) > reach || fabs(m->x_p[2 * q + 1] - m->x_p[2 * p + 1]) > reach) continue;
+      mean += m->stress_p[6 * q + 1];
+      around++;
+    }
+    double apart = m->stress_p[6 * p + 1] - mean / around;
+    sum += apart;
+    square += apart * apart;
+  }
+  return sqrt(square / n - sum * sum / (n * n));
+}
+
+static double collapse(const char *smoothing, const char *basis, const char *timing)
+{
+  const char      *sets[] = {smoothing, basis, timing, NULL};
+  struct scene_run run;
+  scene_open_with(COLUMN, sets, &run);
+  while (run.sim->t < 0.2) scene_step(&run, 1);
+  double result = unevenness(&run);
+  scene_close(&run);
+  return result;
+}
+
+/* half and less of what is without: quadratic functions with usl, cubic ones with musl */
+START_TEST(stresses_of_a_collapse_are_smooth)
+{
+  const char *basis = bases[2 + _i], *timing = timings[_i];
+  double      rough = collapse("numerics.mpm.smoothing=0", basis, timing);
+  double      smooth = collapse("numerics.mpm.smoothing=1", basis, timing);
+  ck_assert_msg(smooth <= 0.5 * rough, "%s %s: %g Pa, without smoothing %g Pa", basis, timing, smooth, rough);
+}
+END_TEST
+
 int main(void)
 {
   Suite *suite = suite_create("smoothing");
@@ -110,6 +163,7 @@ int main(void)
   tcase_add_loop_test(tcase, even_strain_stays, 0, 2);
   tcase_add_test(tcase, short_waves_are_flattened);
   tcase_add_test(tcase, solids_are_smoothed_apart);
+  tcase_add_loop_test(tcase, stresses_of_a_collapse_are_smooth, 0, 2);
   suite_add_tcase(suite, tcase);
   return run_suite(suite);
 }
