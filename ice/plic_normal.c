@@ -1,13 +1,14 @@
-/* Planes from the fill of the cells around. In 2D the best of seven normals, in 3D the better of two. theory 4.9 */
+/* Planes from the fill of the cells around: of Youngs' normal and those of columns the one whose plane fits best.
+ * theory 4.9 */
 #include "ice/plic.h"
 
-#include <math.h>
+#include "ice/plic_cell.h"
 
 enum {
-  MOST = 27,    /* cells of a stencil */
-  LANES = 8,    /* seven candidates in 2D and one twice: loops over them become vectors */
-  PER_AXIS = 3, /* of them from the columns along one axis */
+  MOST = 27,  /* cells of a stencil */
+  SLOPES = 3, /* of columns across one axis */
 };
+static const double steep = 0.8; /* share of the steepest gradient from which on columns along an axis are tried */
 
 /* the cells around one; closed ones count for nothing */
 struct stencil {
@@ -15,11 +16,6 @@ struct stencil {
   double fill[MOST], open[MOST]; /* open: 1 or 0; fill of closed cells is 0 */
 };
 static const int step[3] = {1, 3, 9};
-
-/* normals that may be chosen, 2D */
-struct candidates {
-  double x[LANES], y[LANES], error[LANES];
-};
 
 static void gather(const struct plic *p, const double *fill, long cell, struct stencil *s)
 {
@@ -80,7 +76,7 @@ static inline double height(const struct stencil *s, int at, int a, bool liquid_
 
 /* Slopes across t of the columns along a: centred, towards the lower, towards the upper side. Beside a closed cell all
  * are those of the other side. */
-static void slopes(const struct stencil *s, int a, int t, bool liquid_low, double slope[PER_AXIS])
+static void slopes(const struct stencil *s, int a, int t, bool liquid_low, double slope[SLOPES])
 {
   int    c = s->centre;
   bool   lower = s->open[c - t] > 0, upper = s->open[c + t] > 0;
@@ -91,118 +87,71 @@ static void slopes(const struct stencil *s, int a, int t, bool liquid_low, doubl
   slope[2] = upper ? up : down;
 }
 
-/* direction out of the liquid along an axis from the gradient of the fill */
-static inline double outward(double gradient) { return gradient < 0 ? 1 : gradient > 0 ? -1 : 0; }
-
-/* ---- 2D ---- */
-
-/* area below the line at distance a <= 1/2 from the corner; n_x >= n_y >= 0 after reflection */
-static inline double area(double less, double inverse_less, double inverse_more, double a)
+/* Squares of what a plane misses of the fill of the cells beside this one; only a part of them beyond `enough`. Cells
+ * at edges and corners, which the plane need not reach, would round off corners and tips. */
+static double misfit(const struct stencil *s, const double n[3], double enough)
 {
-  return (a < less ? 0.5 * a * a * inverse_less : a - 0.5 * less) * inverse_more;
-}
-
-/* square of what the line with this offset from a neighbour's centre misses there */
-static inline double misfit(double less, double inverse_less, double inverse_more, double offset, double fill)
-{
-  double a = 0.5 - fabs(offset), v = area(less, inverse_less, inverse_more, a > 0 ? a : 0);
-  double miss = (offset > 0 ? 1 - v : v) - fill;
-  return miss * miss;
-}
-
-/* how far each candidate misses the fill of the four cells beside this one */
-static void judge(const struct stencil *s, struct candidates *c)
-{
-  double own = s->fill[4], v = own > 0.5 ? 1 - own : own, sign = own > 0.5 ? 1 : -1;
-  for (int i = 0; i < LANES; i++) {
-    double size = fabs(c->x[i]) + fabs(c->y[i]), x = c->x[i] / size, y = c->y[i] / size;
-    double less = fabs(x) < fabs(y) ? fabs(x) : fabs(y), more = 1 - less;
-    double corner = sqrt(2 * less * more * v), flat = more * v + 0.5 * less;
-    double d = sign * (0.5 - (flat < less ? corner : flat)), il = 1 / less, im = 1 / more;
-    c->error[i] =
-        (s->open[3] * misfit(less, il, im, d + x, s->fill[3]) + s->open[5] * misfit(less, il, im, d - x, s->fill[5])) +
-        (s->open[1] * misfit(less, il, im, d + y, s->fill[1]) + s->open[7] * misfit(less, il, im, d - y, s->fill[7]));
-    c->x[i] = x;
-    c->y[i] = y;
+  struct sorted m = sort(n);
+  double        total = 0, offset = offset_of(&m, s->fill[s->centre]);
+  for (int d = 0; d < s->dim && total <= enough; d++) {
+    int    low = s->centre - step[d], high = s->centre + step[d];
+    double to_low = volume_of(&m, offset + n[d]) - s->fill[low], to_high = volume_of(&m, offset - n[d]) - s->fill[high];
+    total += s->open[low] * (to_low * to_low) + s->open[high] * (to_high * to_high);
   }
+  return total;
 }
 
-/* The best candidate; the mean of equally good ones, so that a symmetric fill keeps its symmetry. */
-static void choose(const struct candidates *c, double normal[3])
+/* the best normal so far */
+struct choice {
+  double normal[3], misfit;
+};
+
+/* takes a normal that fits better; adds one that fits as well, so that a symmetric fill keeps its symmetry */
+static void try_normal(const struct stencil *s, double n[3], struct choice *best)
 {
-  int best = 0;
-  for (int i = 1; i < LANES; i++)
-    if (c->error[i] < c->error[best]) best = i;
-  normal[0] = normal[1] = normal[2] = 0;
-  for (int i = best; i < LANES; i++) {
-    if (!(c->error[i] <= c->error[best]) || c->x[i] * c->x[best] + c->y[i] * c->y[best] <= 0) continue;
-    normal[0] += c->x[i];
-    normal[1] += c->y[i];
-  }
+  plic_normalise(n);
+  double *b = best->normal, e = misfit(s, n, best->misfit);
+  bool    better = e < best->misfit, equal = e == best->misfit && n[0] * b[0] + n[1] * b[1] + n[2] * b[2] > 0;
+  if (!better && !equal) return;
+  for (int d = 0; d < 3; d++) b[d] = n[d] + (better ? 0 : b[d]);
+  best->misfit = e;
 }
 
-/* Youngs' normal, first and last, and those of the columns along both axes. Where the fill has no gradient along an
- * axis its columns have no top; one without any direction has no error that compares. */
-static void normal_2d(const struct stencil *s, const double g[3], double normal[3])
+/* normals of the columns along an axis; gradient: of the fill along it */
+static void try_columns(const struct stencil *s, int axis, double gradient, struct choice *best)
 {
-  struct candidates c;
-  double            along_x[PER_AXIS], along_y[PER_AXIS];
-  bool              flat = fabs(g[0]) + fabs(g[1]) < 1e-12;
-  slopes(s, step[0], step[1], g[0] <= 0, along_x);
-  slopes(s, step[1], step[0], g[1] <= 0, along_y);
-  c.x[0] = c.x[LANES - 1] = flat ? 0 : -g[0];
-  c.y[0] = c.y[LANES - 1] = flat ? 1 : -g[1];
-  for (int i = 0; i < PER_AXIS; i++) {
-    c.x[1 + i] = outward(g[0]);
-    c.y[1 + i] = -along_x[i];
-    c.x[1 + PER_AXIS + i] = -along_y[i];
-    c.y[1 + PER_AXIS + i] = outward(g[1]);
-  }
-  judge(s, &c);
-  c.error[LANES - 1] = INFINITY;
-  choose(&c, normal);
-}
-
-/* ---- 3D ---- */
-
-static double largest(const double n[3]) { return fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))); }
-
-/* Of the centred columns those whose normal is most along them; Youngs' normal where that is less so, unless closed
- * cells leave gaps in it. Aulisa et al. 2007 */
-static void normal_3d(const struct stencil *s, const double g[3], double normal[3])
-{
-  double most = 0, open = 0;
-  normal[0] = normal[2] = 0;
-  normal[1] = 1;
-  for (int a = 0; a < 3; a++) {
-    int    t = (a + 1) % 3, u = (a + 2) % 3;
-    double across[PER_AXIS], n[3];
-    n[a] = outward(g[a]);
-    slopes(s, step[a], step[t], g[a] <= 0, across);
-    n[t] = -across[0];
-    slopes(s, step[a], step[u], g[a] <= 0, across);
-    n[u] = -across[0];
-    if (n[a] == 0) continue;
-    plic_normalise(n);
-    if (fabs(n[a]) <= most) continue;
-    most = fabs(n[a]);
-    for (int d = 0; d < 3; d++) normal[d] = n[d];
-  }
-  double youngs[3] = {-g[0], -g[1], -g[2]};
-  for (int i = 0; i < MOST; i++) open += s->open[i];
-  if (largest(youngs) < 1e-12 || open < MOST) return;
-  plic_normalise(youngs);
-  if (largest(youngs) < most)
-    for (int d = 0; d < 3; d++) normal[d] = youngs[d];
+  int    t = (axis + 1) % s->dim, u = (axis + 2) % 3;
+  double along_t[SLOPES], along_u[SLOPES] = {0};
+  bool   liquid_low = gradient < 0, space = s->dim == 3;
+  slopes(s, step[axis], step[t], liquid_low, along_t);
+  if (space) slopes(s, step[axis], step[u], liquid_low, along_u);
+  for (int i = 0; i < SLOPES; i++)
+    for (int j = 0; j < (space ? SLOPES : 1); j++) {
+      double n[3] = {0, 0, 0};
+      if (space) n[u] = -along_u[j];
+      n[t] = -along_t[i];
+      n[axis] = liquid_low ? 1 : -1;
+      try_normal(s, n, best);
+    }
 }
 
 void plic_reconstruct(const struct plic *p, const double *fill, long cell, struct plane *plane)
 {
   struct stencil s;
-  double         g[3];
+  struct choice  best = {{0, 1, 0}, INFINITY}; /* of a cell whose neighbours do not say */
+  double         g[3] = {0, 0, 0}, most = 0;
   gather(p, fill, cell, &s);
-  for (int d = 0; d < s.dim; d++) g[d] = gradient(&s, d);
-  (s.dim == 3 ? normal_3d : normal_2d)(&s, g, plane->normal);
+  for (int d = 0; d < s.dim; d++) {
+    g[d] = gradient(&s, d);
+    most = greater(most, fabs(g[d]));
+  }
+  if (most > 1e-12) {
+    double youngs[3] = {-g[0], -g[1], -g[2]};
+    try_normal(&s, youngs, &best);
+    for (int d = 0; d < s.dim; d++)
+      if (fabs(g[d]) >= steep * most) try_columns(&s, d, g[d], &best);
+  }
+  for (int d = 0; d < 3; d++) plane->normal[d] = best.normal[d];
   plic_normalise(plane->normal);
   plane->offset = plic_offset(plane->normal, s.fill[s.centre]);
 }

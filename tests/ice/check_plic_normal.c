@@ -131,7 +131,7 @@ START_TEST(planes_in_space)
   }
   printf("planes in space: components off by at most %.1e\n", any);
   ck_assert_double_lt(gentle, 1e-13);
-  ck_assert_double_lt(any, 0.02);
+  ck_assert_double_lt(any, 0.01);
   close_cells(&s);
 }
 END_TEST
