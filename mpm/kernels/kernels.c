@@ -22,7 +22,10 @@ void kernel_grid_create(const struct grid *g, const struct numerics *numerics, c
                         struct kernel_grid *kg)
 {
   *kg = (struct kernel_grid){.g = *g, .inverse_h = 1 / g->h};
-  for (int d = 0; d < g->dim; d++) kg->half_width[d] = 0.5 * g->h / numerics->points_per_axis[d];
+  for (int d = 0; d < g->dim; d++) {
+    kg->low[d] = g->min[d];
+    kg->half_width[d] = 0.5 * g->h / numerics->points_per_axis[d];
+  }
   for (int side = 0; side < 2 * g->dim; side++)
     kg->modified[side] =
         sides[side].kind == SIDE_ABSORBING ||

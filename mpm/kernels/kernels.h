@@ -9,6 +9,7 @@
 /* What all kernels need to know of the grid. */
 struct kernel_grid {
   struct grid g;
+  double      low[4];          /* m: grid.min, and 0 */
   double      inverse_h;       /* 1/m */
   double      half_width[3];   /* m, GIMP: half a point's width */
   bool        modified[SIDES]; /* boundary-modified splines at this wall: ghost weights are folded into the basis */

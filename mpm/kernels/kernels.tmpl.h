@@ -21,28 +21,36 @@ static inline const double *total_stress(const struct p2g_args *a, long p, doubl
   return own;
 }
 
-/* w m (v + C r) */
-static inline void add_momentum(const struct p2g_args *a, const struct stencil *s, long p, double *u)
+/* w m (v + C r); h in m */
+static inline void add_momentum(const struct p2g_args *a, const struct stencil *s, double h, long p, double *u)
 {
-  ROW w = a->mass[p] * s->w[0], wr = a->mass[p] * s->wr[0];
+  ROW w = a->mass[p] * s->w[0], wh = h * w, wr = (a->mass[p] * h) * s->wr[0];
   tile_add_even(u, s, w);
   for (int d = 0; d < DIM; d++) {
     const double *C = a->affine + (p * DIM + d) * DIM, vel = a->vel[p * DIM + d];
     if (a->affine)
-      tile_add(u + (1 + d) * PITCH, s, s->wr, vel * w + C[0] * wr, C[1] * w, C[DIM - 1] * w);
+      tile_add(u + (1 + d) * PITCH, s, s->wr, vel * w + C[0] * wr, C[1] * wh, C[DIM - 1] * wh);
     else
       tile_add_even(u + (1 + d) * PITCH, s, vel * w);
   }
 }
 
-/* -V stress grad w */
-static inline void add_force(const struct p2g_args *a, const struct stencil *s, long p, double *u)
+/* -V stress grad w; inverse_h in 1/m */
+static inline void add_force(const struct p2g_args *a, const struct stencil *s, double inverse_h, long p, double *u)
 {
   double        own[6];
   const double *S = total_stress(a, p, own);
-  ROW           w = -a->volume[p] * s->w[0], slope = -a->volume[p] * s->d[0];
+  double        factor = -a->volume[p] * inverse_h;
+  ROW           w = factor * s->w[0], slope = factor * s->d[0];
   for (int d = 0; d < DIM; d++)
     tile_add(u + (1 + DIM + d) * PITCH, s, s->d, S[SYM[d][0]] * slope, S[SYM[d][1]] * w, S[SYM[d][2]] * w);
+}
+
+/* adds `components` scalars of a row of n nodes; node [n][components] */
+static inline void add_row(int components, int n, double (*restrict row)[PITCH], double *restrict node)
+{
+  for (int i = 0; i < n; i++)
+    for (int d = 0; d < components; d++) node[i * components + d] += row[d][i];
 }
 
 /* scalars of the tile: mass, momentum, force */
@@ -53,22 +61,22 @@ static void p2g(const struct kernel_grid *kg, const struct kernel_run *run, cons
   tile_place(&t, kg, run);
   tile_clear(&t, 1 + 2 * DIM);
   for (long p = run->begin; p < run->end; p++) {
-    stencil_at(kg, a->x + p * DIM, &s);
-    add_momentum(a, &s, p, tile_at(&t, &s));
-    if (a->stress || a->pressure) add_force(a, &s, p, tile_at(&t, &s));
+    stencil_at(kg, t.at_wall, a->x + p * DIM, &s);
+    add_momentum(a, &s, kg->g.h, p, tile_at(&t, &s));
+    if (a->stress || a->pressure) add_force(a, &s, kg->inverse_h, p, tile_at(&t, &s));
   }
   FOR_TILE_ROWS(&t, &kg->g, node, row)
   {
-    for (int i = 0; i < t.count[0] && a->mass_nc; i++) a->mass_nc[node + i] += row[0][i];
-    for (int i = 0; i < t.count[0] * DIM; i++) a->mom_nc[node * DIM + i] += row[1 + i % DIM][i / DIM];
-    for (int i = 0; i < t.count[0] * DIM && a->force_nc; i++)
-      a->force_nc[node * DIM + i] += row[1 + DIM + i % DIM][i / DIM];
+    if (a->mass_nc) add_row(1, t.count[0], row, a->mass_nc + node);
+    add_row(DIM, t.count[0], row + 1, a->mom_nc + node * DIM);
+    if (a->force_nc) add_row(DIM, t.count[0], row + 1 + DIM, a->force_nc + node * DIM);
   }
 }
 
-/* what a point gathers: sum w r v, w v, grad w v, and w of the change of v */
+/* what a point gathers: sum w v r (in h; from which the affine matrix is made), w v, v grad w (in 1/h; then 1/s), and w
+ * of the change of v */
 struct motion {
-  double r[DIM * DIM], vel[DIM], gradient[DIM * DIM], change[DIM];
+  double affine[DIM * DIM], vel[DIM], gradient[DIM * DIM], change[DIM];
 };
 
 static inline void gather_motion(const double *u, const struct stencil *s, struct motion *motion)
@@ -76,6 +84,7 @@ static inline void gather_motion(const double *u, const struct stencil *s, struc
   enum { N = sizeof *motion / sizeof(double), VEL = DIM * DIM, GRADIENT = VEL + DIM, CHANGE = GRADIENT + DIM * DIM };
   ROW    of[N]; /* to be summed over their lanes */
   double sums[N];
+#pragma GCC unroll 3
   for (int d = 0; d < DIM; d++) {
     struct sums q;
     tile_sum(u + d * PITCH, s, &q);
@@ -93,45 +102,73 @@ static inline void gather_motion(const double *u, const struct stencil *s, struc
   memcpy(motion, sums, sizeof *motion);
 }
 
-/* second moment of the weights along an axis, m2: D of T(28); x: place of the point */
+/* second moment of the weights along an axis, h2: D of T(28); x: place of the point */
 static inline double axis_moment(const struct kernel_grid *kg, const struct stencil *s, const double *x, int axis)
 {
-  double m = 0, nearest = kg->g.min[axis] + s->first[axis] * kg->g.h - x[axis];
-  for (int i = 0; i < N1; i++) m += s->wr[axis][i] * (nearest + i * kg->g.h);
+  double m = 0, nearest = s->first[axis] - (x[axis] - kg->g.min[axis]) * kg->inverse_h;
+  for (int i = 0; i < N1; i++) m += s->wr[axis][i] * (nearest + i);
   return m;
 }
 
 /* Affine velocity matrix B D^-1, T(28). Near a modified wall D shrinks; the velocity gradient where it vanishes. */
-static inline void affine_matrix(const struct kernel_grid *kg, const struct stencil *s, const double *x,
-                                 const struct motion *now, double *C)
+static inline void finish_motion(const struct kernel_grid *kg, const struct stencil *s, const double *x,
+                                 struct motion *now)
 {
-  double h2 = kg->g.h * kg->g.h;
+  double inverse_h = kg->inverse_h;
+  for (int q = 0; q < DIM * DIM; q++) now->gradient[q] *= inverse_h;
   if (moment > 0 && !s->folded) {
-    for (int q = 0; q < DIM * DIM; q++) C[q] = now->r[q] * (1 / moment * kg->inverse_h * kg->inverse_h);
+    for (int q = 0; q < DIM * DIM; q++) now->affine[q] *= inverse_h * (1 / moment);
     return;
   }
   for (int e = 0; e < DIM; e++) {
     double m = axis_moment(kg, s, x, e);
-    for (int q = e; q < DIM * DIM; q += DIM) C[q] = m > 0.05 * h2 ? now->r[q] / m : now->gradient[q];
+    for (int q = e; q < DIM * DIM; q += DIM)
+      now->affine[q] = m > 0.05 ? now->affine[q] * inverse_h / m : now->gradient[q];
   }
 }
 
 /* gradv [DIM][DIM]: where this point's goes */
 static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p,
-                             double *gradv)
+                             const struct stencil *s, double *gradv)
 {
-  struct stencil s;
-  struct motion  now;
-  double        *x = a->x + p * DIM, *vel = a->vel + p * DIM;
-  stencil_at(kg, x, &s);
-  gather_motion(tile_at(t, &s), &s, &now);
-  if (a->affine) affine_matrix(kg, &s, x, &now, a->affine + p * DIM * DIM);
+  struct motion now;
+  double       *x = a->x + p * DIM, *vel = a->vel + p * DIM;
+  gather_motion(tile_at(t, s), s, &now);
+  finish_motion(kg, s, x, &now);
+  if (a->affine) memcpy(a->affine + p * DIM * DIM, now.affine, sizeof now.affine);
   memcpy(gradv, now.gradient, sizeof now.gradient);
   for (int d = 0; d < DIM; d++) {
     vel[d] = a->beta * now.vel[d] + (1 - a->beta) * (vel[d] + now.change[d]);
     x[d] += a->dt * now.vel[d];
     if (a->displacement) a->displacement[p * DIM + d] += a->dt * now.vel[d];
   }
+}
+
+/* Stencils of so many points are found before the first is used: finding one is a chain of operations that wait for one
+ * another, those of several points go side by side. */
+enum { STENCILS = 8 };
+
+/* points [p, p + n); gradv [n][DIM][DIM] */
+static inline void g2p_points(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p, int n,
+                              double *gradv)
+{
+  struct stencil s[STENCILS];
+  for (int i = 0; i < n; i += STENCILS) {
+    int end = n - i < STENCILS ? n : i + STENCILS;
+    for (int j = i; j < end; j++) stencil_at(kg, t->at_wall, a->x + (p + j) * DIM, s + j - i);
+    for (int j = i; j < end; j++) g2p_point(kg, a, t, p + j, s + j - i, gradv + j * DIM * DIM);
+  }
+}
+
+/* velocity of a row of n nodes, and its change */
+static inline void take_row(int n, const double *restrict now, const double *restrict old,
+                            double (*restrict row)[PITCH])
+{
+  for (int i = 0; i < n; i++)
+    for (int d = 0; d < DIM; d++) {
+      row[d][i] = now[i * DIM + d];
+      row[DIM + d][i] = now[i * DIM + d] - old[i * DIM + d];
+    }
 }
 
 /* scalars of the tile: new velocity, its change */
@@ -141,15 +178,11 @@ static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, cons
   tile_place(&t, kg, run);
   tile_pad(&t, 2 * DIM);
   FOR_TILE_ROWS(&t, &kg->g, node, row)
-  for (int i = 0; i < t.count[0] * DIM; i++) {
-    double vel = a->vel_nc[node * DIM + i];
-    row[i % DIM][i / DIM] = vel;
-    row[DIM + i % DIM][i / DIM] = vel - a->vel_old_nc[node * DIM + i];
-  }
+  take_row(t.count[0], a->vel_nc + node * DIM, a->vel_old_nc + node * DIM, row);
   for (long p = run->begin; p < run->end; p += POINT_BATCH) {
     int    n = run->end - p < POINT_BATCH ? (int)(run->end - p) : POINT_BATCH;
     double own[POINT_BATCH * DIM * DIM], *gradv = a->gradv ? a->gradv + p * DIM * DIM : own;
-    for (int i = 0; i < n; i++) g2p_point(kg, a, &t, p + i, gradv + i * DIM * DIM);
+    g2p_points(kg, a, &t, p, n, gradv);
     if (a->strain) a->strain(a->context, p, n, gradv);
   }
 }
@@ -157,17 +190,18 @@ static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, cons
 static inline void scatter_point(const struct kernel_grid *kg, const struct scatter_args *a, struct tile *t, long p)
 {
   struct stencil s;
-  stencil_at(kg, a->x + p * DIM, &s);
+  stencil_at(kg, t->at_wall, a->x + p * DIM, &s);
   double *u = tile_at(t, &s), weight = a->weight ? a->weight[p] : 1;
-  ROW     w = weight * s.w[0], wr = weight * s.wr[0], slope = weight * s.d[0];
+  ROW     w = weight * s.w[0], wh = kg->g.h * w, wr = (weight * kg->g.h) * s.wr[0];
+  ROW     w_h = kg->inverse_h * w, slope = (weight * kg->inverse_h) * s.d[0];
   for (int q = 0; q < a->n; q++) {
     double        value = a->value[q] ? a->value[q][p] : 1;
     const double *A = a->gradient[q] + p * DIM, *flux = a->flux[q] + p * DIM;
     if (a->gradient[q])
-      tile_add(u + q * PITCH, &s, s.wr, value * w + A[0] * wr, A[1] * w, A[DIM - 1] * w);
+      tile_add(u + q * PITCH, &s, s.wr, value * w + A[0] * wr, A[1] * wh, A[DIM - 1] * wh);
     else
       tile_add_even(u + q * PITCH, &s, value * w);
-    if (a->flux[q]) tile_add(u + q * PITCH, &s, s.d, flux[0] * slope, flux[1] * w, flux[DIM - 1] * w);
+    if (a->flux[q]) tile_add(u + q * PITCH, &s, s.d, flux[0] * slope, flux[1] * w_h, flux[DIM - 1] * w_h);
   }
 }
 
@@ -187,7 +221,7 @@ static void scatter(const struct kernel_grid *kg, const struct kernel_run *run, 
 static inline void gather_point(const struct kernel_grid *kg, const struct gather_args *a, struct tile *t, long p)
 {
   struct stencil s;
-  stencil_at(kg, a->x + p * DIM, &s);
+  stencil_at(kg, t->at_wall, a->x + p * DIM, &s);
   const double *u = tile_at(t, &s);
   long          step = a->gradient_stride ? a->gradient_stride : DIM;
   for (int q = 0; q < a->n; q++) {
@@ -196,7 +230,7 @@ static inline void gather_point(const struct kernel_grid *kg, const struct gathe
     tile_sum(u + q * PITCH, &s, &sums);
     row_store(all, row_sums(s.w[0] * sums.w, s.d[0] * sums.w, s.w[0] * sums.dy, s.w[0] * sums.dz));
     if (a->value[q]) a->value[q][p] = all[0];
-    for (int e = 0; e < DIM && a->gradient[q]; e++) a->gradient[q][p * step + e] = all[1 + e];
+    for (int e = 0; e < DIM && a->gradient[q]; e++) a->gradient[q][p * step + e] = all[1 + e] * kg->inverse_h;
   }
 }
 
@@ -216,16 +250,16 @@ static void gather(const struct kernel_grid *kg, const struct kernel_run *run, c
 static void weights(const struct kernel_grid *kg, const double *x, long *node, double *w, double (*gradient)[3])
 {
   struct stencil s;
-  stencil_at(kg, x, &s);
+  stencil_at(kg, true, x, &s);
   for (int k = 0, q = 0; k < N1_Z; k++)
     for (int j = 0; j < N1; j++)
       for (int i = 0; i < N1; i++, q++) {
         node[q] = grid_at(&kg->g, s.first[0] + i, s.first[1] + j, s.first[2] + k);
         w[q] = s.w[0][i] * s.w[1][j] * s.w[2][k];
         if (!gradient) continue;
-        gradient[q][0] = s.d[0][i] * s.w[1][j] * s.w[2][k];
-        gradient[q][1] = s.w[0][i] * s.d[1][j] * s.w[2][k];
-        gradient[q][2] = s.w[0][i] * s.w[1][j] * s.d[2][k];
+        gradient[q][0] = s.d[0][i] * s.w[1][j] * s.w[2][k] * kg->inverse_h;
+        gradient[q][1] = s.w[0][i] * s.d[1][j] * s.w[2][k] * kg->inverse_h;
+        gradient[q][2] = s.w[0][i] * s.w[1][j] * s.d[2][k] * kg->inverse_h;
       }
 }
 

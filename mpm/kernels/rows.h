@@ -2,10 +2,12 @@
 #ifndef MPM_KERNELS_ROWS_H
 #define MPM_KERNELS_ROWS_H
 
+#include <math.h>
 #include <string.h>
 
 enum { ROW_NODES = 4 };
 #define ROW double __attribute__((vector_size(ROW_NODES * sizeof(double))))
+#define ROW_INT int __attribute__((vector_size(ROW_NODES * sizeof(int))))
 #define ROW_MASK long __attribute__((vector_size(ROW_NODES * sizeof(long))))
 
 /* one value in all lanes */
@@ -19,6 +21,8 @@ static inline ROW row_load(const double *from)
 }
 
 static inline void row_store(double *to, ROW row) { memcpy(to, &row, sizeof row); }
+
+static inline ROW row_floor(ROW a) { return (ROW){floor(a[0]), floor(a[1]), floor(a[2]), floor(a[3])}; }
 
 /* lanes where the mask is set from a, the others from b */
 static inline ROW row_choose(ROW_MASK mask, ROW a, ROW b)

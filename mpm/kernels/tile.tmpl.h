@@ -14,9 +14,10 @@ enum { PITCH = EDGE + ROW_NODES - 1, LINE = LANES * PITCH };
 struct tile {
   double at[EDGE_Z][EDGE][LANES][PITCH]; /* [k][j][scalar][i] */
   int    first[3], count[3];             /* lower node; nodes in use: a block at the border of the grid needs fewer */
+  bool   at_wall;                        /* some node may be a ghost of a modified wall */
 };
 
-/* first node, and for up to four nodes along every axis: weights, weights times distance (m), derivatives (1/m) */
+/* first node, and for up to four nodes along every axis weights, weights times distance r, derivatives; lengths in h */
 struct stencil {
   int  first[3];
   bool folded; /* a wall has changed the weights, and with them their second moment */
@@ -45,18 +46,17 @@ static inline bool fold_axis(const struct kernel_grid *kg, int axis, int first, 
   return low || high;
 }
 
-static inline void stencil_at(const struct kernel_grid *kg, const double *x, struct stencil *s)
+static inline void stencil_at(const struct kernel_grid *kg, bool at_wall, const double *x, struct stencil *s)
 {
-  double h = kg->g.h, inverse_h = kg->inverse_h;
+  ROW     position = ((ROW){x[0], x[1], DIM == 3 ? x[2] : 0, 0} - row_load(kg->low)) * kg->inverse_h;
+  ROW     nearest = row_floor(position + SHIFT), a = position - nearest;
+  ROW_INT first = __builtin_convertvector(nearest, ROW_INT) + FIRST;
   s->folded = false;
-  for (int a = 0; a < DIM; a++) {
-    double position = (x[a] - kg->g.min[a]) * inverse_h;
-    ROW    w, d;
-    s->first[a] = axis_weights(position, kg->half_width[a] * inverse_h, &w, &d);
-    if (N1 > 2) s->folded |= fold_axis(kg, a, s->first[a], &w, &d);
-    s->w[a] = w;
-    s->wr[a] = w * ((s->first[a] - position) * h + h * (ROW){0, 1, 2, 3});
-    s->d[a] = d * inverse_h;
+  for (int axis = 0; axis < DIM; axis++) {
+    s->first[axis] = first[axis];
+    axis_weights(a[axis], kg->half_width[axis] * kg->inverse_h, &s->w[axis], &s->d[axis]);
+    if (N1 > 2 && at_wall) s->folded |= fold_axis(kg, axis, first[axis], &s->w[axis], &s->d[axis]);
+    s->wr[axis] = s->w[axis] * ((ROW){FIRST, FIRST + 1, FIRST + 2, FIRST + 3} - a[axis]);
   }
 #if DIM == 2
   s->first[2] = 0;
@@ -68,10 +68,12 @@ static inline void stencil_at(const struct kernel_grid *kg, const double *x, str
 /* nodes that points of the block can reach, all of them in the grid's ghosts at most */
 static inline void tile_place(struct tile *t, const struct kernel_grid *kg, const struct kernel_run *run)
 {
+  t->at_wall = false;
   for (int a = 0; a < 3; a++) {
     t->first[a] = a < DIM ? run->corner[a] - BLOCK_MARGIN - 1 : 0;
     int last = kg->g.n[a] + 2 - t->first[a];
     t->count[a] = a >= DIM ? 1 : last + 1 < EDGE ? last + 1 : EDGE;
+    t->at_wall |= a < DIM && ((kg->modified[2 * a] && t->first[a] < 0) || (kg->modified[2 * a + 1] && last < EDGE));
   }
 }
 
@@ -82,11 +84,11 @@ static inline void tile_clear(struct tile *t, int n)
     for (int j = 0; j < t->count[1]; j++) memset(t->at[k][j], 0, (size_t)n * sizeof t->at[k][j][0]);
 }
 
-/* empties what stands behind the nodes in use of the first n scalars: a row of four nodes reaches there with weights of
- * zero, and zero times what the stack held may be not a number */
+/* Empties what stands behind the nodes in use of the first n scalars: a row of a basis of fewer than four nodes reaches
+ * there with weights of zero, and zero times what the stack held may be not a number. */
 static inline void tile_pad(struct tile *t, int n)
 {
-  for (int k = 0; k < t->count[2]; k++)
+  for (int k = 0; k < t->count[2] && ROW_NODES - N1 > 0; k++)
     for (int j = 0; j < t->count[1]; j++)
       for (int q = 0; q < n; q++) memset(&t->at[k][j][q][t->count[0]], 0, (ROW_NODES - 1) * sizeof(double));
 }
@@ -130,29 +132,49 @@ static inline void tile_add_even(double *u, const struct stencil *s, ROW even)
   }
 }
 
-/* sums of a scalar over y and z, rows along x: with the weights of both axes; with wr or d along one of them instead */
+/* Sums of a scalar over y and z, rows along x: with the weights of both axes; with wr or d along one of them instead.
+ * Along an axis weights add up to one, wr and d to nothing: all is taken relative to node 1, which is next to the
+ * point, so that it takes differences where it took products, and a uniform field has no gradient at all. */
 struct sums {
   ROW w, ry, dy, rz, dz;
 };
 
+/* differences of N1 rows from row 1; step: from a row to the next */
+static inline void relative_rows(const double *u, long step, ROW *row)
+{
+  row[1] = row_load(u + step);
+  for (int j = 0; j < N1; j++)
+    if (j != 1) row[j] = row_load(u + j * step) - row[1];
+}
+
 static inline void tile_sum(const double *u, const struct stencil *s, struct sums *sums)
 {
-  struct sums all = {{0}, {0}, {0}, {0}, {0}};
+  ROW w[4], r[4], d[4], row[4];
   for (int k = 0; k < N1_Z; k++) {
-    ROW w = {0}, r = {0}, d = {0};
-    for (int j = 0; j < N1; j++) {
-      ROW row = row_load(u + (k * EDGE + j) * LINE);
-      w += s->w[1][j] * row;
-      r += s->wr[1][j] * row;
-      d += s->d[1][j] * row;
+    relative_rows(u + k * EDGE * LINE, LINE, row);
+    w[k] = row[1] + s->w[1][0] * row[0];
+    r[k] = s->wr[1][0] * row[0];
+    d[k] = s->d[1][0] * row[0];
+    for (int j = 2; j < N1; j++) {
+      w[k] += s->w[1][j] * row[j];
+      r[k] += s->wr[1][j] * row[j];
+      d[k] += s->d[1][j] * row[j];
     }
-    all.w = DIM == 2 ? w : all.w + s->w[2][k] * w;
-    all.ry = DIM == 2 ? r : all.ry + s->w[2][k] * r;
-    all.dy = DIM == 2 ? d : all.dy + s->w[2][k] * d;
-    all.rz += s->wr[2][k] * w;
-    all.dz += s->d[2][k] * w;
   }
-  *sums = all;
+  *sums = (struct sums){w[0], r[0], d[0], {0}, {0}};
+#if DIM == 3
+  w[0] -= w[1];
+  *sums = (struct sums){w[1] + s->w[2][0] * w[0], s->w[2][0] * r[0] + s->w[2][1] * r[1],
+                        s->w[2][0] * d[0] + s->w[2][1] * d[1], s->wr[2][0] * w[0], s->d[2][0] * w[0]};
+  for (int k = 2; k < N1; k++) {
+    w[k] -= w[1];
+    sums->w += s->w[2][k] * w[k];
+    sums->ry += s->w[2][k] * r[k];
+    sums->dy += s->w[2][k] * d[k];
+    sums->rz += s->wr[2][k] * w[k];
+    sums->dz += s->d[2][k] * w[k];
+  }
+#endif
 }
 
 static inline ROW tile_sum_even(const double *u, const struct stencil *s)
