@@ -27,8 +27,18 @@ static bool zero(const struct function velocity[3])
   return true;
 }
 
-/* nothing pushes, no wall moves, gravity stays as it is, nothing starts with a velocity */
-static bool stands_still(const struct scene *scene)
+/* no obstacle moves, and none comes or goes until t s: a gate that opens lets the solid go */
+static bool obstacles_stand(const struct scene *scene, double t)
+{
+  for (int i = 0; i < scene->n_obstacles; i++) {
+    const struct obstacle *o = &scene->obstacles[i];
+    if (!zero(o->velocity) || o->until <= t || (o->from > 0 && o->from <= t)) return false;
+  }
+  return true;
+}
+
+/* nothing pushes, no wall moves until t s, gravity stays as it is, nothing starts with a velocity */
+static bool stands_still(const struct scene *scene, double t)
 {
   if (scene->n_loads > 0 || !zero(scene->fluid.velocity)) return false;
   for (int d = 0; d < scene->dim; d++)
@@ -37,17 +47,19 @@ static bool stands_still(const struct scene *scene)
     if (!zero(scene->solids[s].velocity)) return false;
   for (int side = 0; side < 2 * scene->dim; side++)
     if (!zero(scene->solid_side[side].velocity) || scene->fluid_side[side].kind == SIDE_VELOCITY) return false;
-  return true;
+  return obstacles_stand(scene, t);
 }
 
 void start_check_fill(const struct sim *sim, const struct start_motion *motion, struct start_record *record)
 {
   const struct mpm *m = mpm_of(sim);
+  double            up[3], g;
+  at_rest_up(sim->scene, up, &g);
   *record = (struct start_record){0};
   if (!m || !m->rest.computed) return;
   *record = (struct start_record){.computed = true,
                                   .settled = m->rest.settled,
-                                  .still = stands_still(sim->scene),
+                                  .still = stands_still(sim->scene, motion->fall / g),
                                   .steps = m->rest.steps,
                                   .column = m->rest.column,
                                   .unbalanced = m->rest.unbalanced,
