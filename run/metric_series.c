@@ -169,6 +169,10 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
   case MEASURE_FREQUENCY:
   case MEASURE_DECAY:
     return oscillation(m, n, t, v, result, expected);
+  case MEASURE_GAIN:
+    TRY(expected_at(m, m->to, expected));
+    *result = v[n - 1] - v[0] - *expected;
+    return OK;
   case MEASURE_REACH:
     return reach(m, n, t, v, result, expected);
   case MEASURE_DRIFT:

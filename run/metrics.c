@@ -101,7 +101,7 @@ static enum status compile(const struct sim *sim, const struct metric *metric, s
   m->to = fmin(metric->to * unit, isfinite(metric->to) ? INFINITY : sim->scene->time_end);
   m->single = metric->measure == MEASURE_VALUE || metric->measure == MEASURE_MEAN ||
               metric->measure == MEASURE_FREQUENCY || metric->measure == MEASURE_DECAY ||
-              metric->measure == MEASURE_REACH;
+              metric->measure == MEASURE_REACH || metric->measure == MEASURE_GAIN;
   if (*metric->field) return find_field(sim, m);
   metric_place_gauge(sim->scene, metric->gauge, m->x);
   return OK;

@@ -175,14 +175,15 @@ static enum status check_metric_source(struct reader *reader, const struct scene
 {
   struct names names = {0};
   bool of_gauge = m->measure == MEASURE_FREQUENCY || m->measure == MEASURE_DECAY || m->measure == MEASURE_DRIFT ||
-                  m->measure == MEASURE_CHANGE || m->measure == MEASURE_REACH;
+                  m->measure == MEASURE_CHANGE || m->measure == MEASURE_GAIN || m->measure == MEASURE_REACH;
   bool of_field = m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER;
   at(reader, "metrics.%s", m->name);
   if ((*m->field != '\0') == (*m->gauge != '\0'))
     return reader_fail(reader, "it needs one of \"field\" and \"gauge\"; give exactly one");
   if (*m->field && of_gauge)
     return reader_fail(
-        reader, "frequency, decay, drift, change and reach belong to a gauge, not to the field %s; give \"gauge\"",
+        reader,
+        "frequency, decay, drift, change, gain and reach belong to a gauge, not to the field %s; give \"gauge\"",
         m->field);
   if (*m->gauge && of_field)
     return reader_fail(reader, "roughness and scatter belong to a field, not to the gauge %s; give \"field\"",

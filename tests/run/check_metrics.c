@@ -223,11 +223,11 @@ START_TEST(gauges_over_time)
   struct fake_run     r;
   struct gauge        gauges[3] = {ledger_gauge("line", "elastic"), ledger_gauge("wave", "kinetic_solid"),
                                    ledger_gauge("sum", "energy")};
-  struct metric       m[12];
-  struct metric_entry e[12];
+  struct metric       m[13];
+  struct metric_entry e[13];
   double              times[SAMPLES];
   /* at t = 0.25 the line is 4.75, the wave 2 + exp(-0.375) sin(3 pi) = 2; at t = 1 the line is 7 */
-  const double wanted[12] = {0.5,
+  const double wanted[13] = {0.5,
                              3,
                              0.25,
                              1 / 2.125,
@@ -238,7 +238,8 @@ START_TEST(gauges_over_time)
                              (4.75 + 2 - 1) / 2,
                              0.25 + 0.95 * 0.75,
                              4.75 / 6.75,
-                             6.25 / 4.75 - 1};
+                             6.25 / 4.75 - 1,
+                             1.5 / 6.25};
   sample_times(times);
   fake_create(2, &r);
   m[0] = metric_of("max", MEASURE_MAX, "", "line"), expect(&m[0], "4.5 + 3*t"), m[0].from = 0.2;
@@ -253,10 +254,12 @@ START_TEST(gauges_over_time)
   m[9] = metric_of("reach", MEASURE_REACH, "", "line"), m[9].from = 0.25, m[9].share = 0.95;
   m[10] = metric_of("over", MEASURE_VALUE, "", "line"), m[10].at = 0.25;
   snprintf(m[10].over, sizeof m[10].over, "sum");
+  m[12] = metric_of("gain", MEASURE_GAIN, "", "line"), m[12].from = 0.25, m[12].to = 0.75;
+  snprintf(m[12].over, sizeof m[12].over, "line");
   m[11] = metric_of("change", MEASURE_CHANGE, "", "line"), m[11].from = 0.25, m[11].to = 0.75;
-  r.scene.gauges = gauges, r.scene.n_gauges = 3, r.scene.metrics = m, r.scene.n_metrics = 12;
-  ck_assert_int_eq(evaluate(&r, SAMPLES, times, oscillate, NULL, e), 12);
-  for (int i = 0; i < 12; i++) {
+  r.scene.gauges = gauges, r.scene.n_gauges = 3, r.scene.metrics = m, r.scene.n_metrics = 13;
+  ck_assert_int_eq(evaluate(&r, SAMPLES, times, oscillate, NULL, e), 13);
+  for (int i = 0; i < 13; i++) {
     ck_assert_msg(fabs(e[i].value - wanted[i]) < 1e-6, "metric %d: %.10g, wanted %.10g", i, e[i].value, wanted[i]);
     ck_assert(e[i].pass && !e[i].has_limit);
     function_destroy(&m[i].expected);
