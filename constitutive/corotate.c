@@ -1,6 +1,8 @@
 /* Polar decomposition of a step for groups of points. Small steps take a series in E = dF^T dF - I, which is vector
- * code; large ones, eigenvalues. */
+ * code; large ones, eigenvalues. Where nothing moves across the plane xy all is 2 x 2. */
 #include "constitutive/corotate.h"
+
+#include "constitutive/vector.h"
 
 /* Above this |E| (Frobenius) series of TERMS terms lose digits; beyond |dF - I| = 1 it may be a reflection. */
 #define SMALL_STRETCH 0.02
@@ -17,16 +19,25 @@ struct polynomial {
   VECTOR a, b, c;
 };
 
+/* component k of eight records of so many doubles: in registers, as a detour over memory would wait for every store */
+static inline void gather_lanes(const double *record, int width, int k, VECTOR *v)
+{
+  const double *a = record + k, *b = a + 4L * width;
+  *v = (VECTOR){a[0], a[width], a[2 * width], a[3 * width], b[0], b[width], b[2 * width], b[3 * width]};
+}
+
 static void load(int m, const double *dF, const double *stress, struct step *s, struct corotate_group *g)
 {
-  if (m < LANES) {
-    memset(s->G, 0, sizeof s->G);
-    memset(g->stress, 0, sizeof g->stress);
+  double own_dF[9 * LANES] = {0}, own_stress[6 * LANES] = {0};
+  if (m < LANES) { /* the others do not move */
+    memcpy(own_dF, dF, (size_t)(9 * m) * sizeof *dF);
+    memcpy(own_stress, stress, (size_t)(6 * m) * sizeof *stress);
+    for (int i = m; i < LANES; i++) own_dF[9 * i] = own_dF[9 * i + 4] = own_dF[9 * i + 8] = 1;
+    dF = own_dF, stress = own_stress;
   }
-  for (int i = 0; i < m; i++) {
-    for (int k = 0; k < 9; k++) s->G[k][i] = dF[9 * i + k] - (k % 4 == 0);
-    for (int k = 0; k < 6; k++) g->stress[k][i] = stress[6 * i + k];
-  }
+  for (int k = 0; k < 9; k++) gather_lanes(dF, 9, k, &s->G[k]);
+  for (int k = 0; k < 9; k += 4) s->G[k] -= 1.0;
+  for (int k = 0; k < 6; k++) gather_lanes(stress, 6, k, &g->stress[k]);
 }
 
 /* E = G + G^T + G^T G */
@@ -54,11 +65,13 @@ static void square(struct step *s)
   s->turn2 = (E[XX] + E[YY] + E[ZZ]) - 2.0 * (s->G[0] + s->G[4] + s->G[8]);
 }
 
+/* log(1 + E)/2 */
+static const double logarithm[TERMS + 1] = {0,        1.0 / 2,   -1.0 / 4, 1.0 / 6,   -1.0 / 8,
+                                            1.0 / 10, -1.0 / 12, 1.0 / 14, -1.0 / 16, 1.0 / 18};
+
 /* log U = log(I + E)/2 and U^-1 = (I + E)^(-1/2) by Horner with E^3 = i1 E^2 - i2 E + i3 I */
 static void series(const struct step *s, struct polynomial *log_U, struct polynomial *U_inverse)
 {
-  static const double logarithm[TERMS + 1] = {0,        1.0 / 2,   -1.0 / 4, 1.0 / 6,   -1.0 / 8,
-                                              1.0 / 10, -1.0 / 12, 1.0 / 14, -1.0 / 16, 1.0 / 18};
   static const double root[TERMS + 1] = {1,           -1.0 / 2,     3.0 / 8,       -5.0 / 16,      35.0 / 128,
                                          -63.0 / 256, 231.0 / 1024, -429.0 / 2048, 6435.0 / 32768, -12155.0 / 65536};
   const VECTOR       *E = s->E;
@@ -98,6 +111,70 @@ static void rotation(const struct step *s, const VECTOR U_inverse[6], VECTOR R[9
           U_inverse[at[3 * r + c]] + (s->G[3 * r] * U_inverse[at[c]] + s->G[3 * r + 1] * U_inverse[at[3 + c]] +
                                       s->G[3 * r + 2] * U_inverse[at[6 + c]]);
 }
+
+static void decompose(struct step *s, struct corotate_group *g)
+{
+  struct polynomial log_U, root;
+  VECTOR            U_inverse[6];
+  stretch(s);
+  square(s);
+  series(s, &log_U, &root);
+  evaluate(s, &log_U, g->strain);
+  evaluate(s, &root, U_inverse);
+  rotation(s, U_inverse, g->R);
+}
+
+/* ---- motion in the plane ---- */
+
+static void find_plane(const struct step *s, MASK *plane)
+{
+  *plane = (MASK)(s->G[2] == 0.0);
+  for (int k = 5; k < 9; k++) *plane &= (MASK)(s->G[k] == 0.0);
+}
+
+/* The same where all points move in the plane. log U by Horner with E^2 = i1 E - i2 I; of the rotation the cosine goes
+ * with dF_xx + dF_yy, the sine with dF_yx - dF_xy. */
+static void decompose_plane(struct step *s, struct corotate_group *g)
+{
+  const VECTOR *G = s->G;
+  VECTOR       *E = s->E, a = VECTOR_ALL(0.0), b = a, cosine = 2.0 + G[0] + G[4], sine = G[3] - G[1], length;
+  E[XX] = 2.0 * G[0] + (G[0] * G[0] + G[3] * G[3]);
+  E[YY] = 2.0 * G[4] + (G[1] * G[1] + G[4] * G[4]);
+  E[XY] = G[1] + G[3] + (G[0] * G[1] + G[3] * G[4]);
+  E[ZZ] = E[YZ] = E[XZ] = VECTOR_ALL(0.0);
+  VECTOR i1 = E[XX] + E[YY], i2 = E[XX] * E[YY] - E[XY] * E[XY];
+  s->stretch2 = E[XX] * E[XX] + E[YY] * E[YY] + 2.0 * E[XY] * E[XY];
+  s->turn2 = i1 - 2.0 * (G[0] + G[4]);
+  for (int k = TERMS; k >= 0; k--) {
+    VECTOR last = a;
+    a = logarithm[k] - b * i2;
+    b = last + b * i1;
+  }
+  for (int k = 0; k < 6; k++) g->strain[k] = b * E[k];
+  for (int k = 0; k < 2; k++) g->strain[k] += a;
+  length = cosine * cosine + sine * sine;
+  vector_sqrt(&length, &length);
+  for (int k = 0; k < 9; k++) g->R[k] = VECTOR_ALL(k == 8);
+  g->R[0] = g->R[4] = cosine / length;
+  g->R[3] = sine / length;
+  g->R[1] = -g->R[3];
+}
+
+/* some move in the plane, some do not: each as it would in other company */
+static void decompose_both(struct step *s, struct corotate_group *g)
+{
+  struct step           flat = *s;
+  struct corotate_group other;
+  decompose(s, g);
+  decompose_plane(&flat, &other);
+  for (int k = 0; k < 6; k++) g->strain[k] = VECTOR_SELECT(g->plane, other.strain[k], g->strain[k]);
+  for (int k = 0; k < 6; k++) s->E[k] = VECTOR_SELECT(g->plane, flat.E[k], s->E[k]);
+  for (int k = 0; k < 9; k++) g->R[k] = VECTOR_SELECT(g->plane, other.R[k], g->R[k]);
+  s->stretch2 = VECTOR_SELECT(g->plane, flat.stretch2, s->stretch2);
+  s->turn2 = VECTOR_SELECT(g->plane, flat.turn2, s->turn2);
+}
+
+/* ---- large steps ---- */
 
 /* one Jacobi rotation: makes A[p][q] zero; V collects the eigenvectors as columns */
 static void annihilate(double A[3][3], double V[3][3], int p, int q)
@@ -188,17 +265,18 @@ static void leave_unstrained(int i, struct corotate_group *g)
 
 int corotate_begin(int m, const double *dF, const double *stress, struct corotate_group *group)
 {
-  struct step       s;
-  struct polynomial log_U, root;
-  VECTOR            U_inverse[6];
-  int               bad = 0;
+  struct step s;
+  MASK        across;
+  int         bad = 0;
   load(m, dF, stress, &s, group);
-  stretch(&s);
-  square(&s);
-  series(&s, &log_U, &root);
-  evaluate(&s, &log_U, group->strain);
-  evaluate(&s, &root, U_inverse);
-  rotation(&s, U_inverse, group->R);
+  find_plane(&s, &group->plane);
+  across = ~group->plane;
+  if (!vector_any(&across))
+    decompose_plane(&s, group);
+  else if (!vector_any(&group->plane))
+    decompose(&s, group);
+  else
+    decompose_both(&s, group);
   if (all_small(&s)) return 0;
   for (int i = 0; i < m; i++)
     if (!is_small(&s, i) && !decompose_lane(&s, i, group)) {
@@ -208,10 +286,10 @@ int corotate_begin(int m, const double *dF, const double *stress, struct corotat
   return bad;
 }
 
-void corotate_end(int m, struct corotate_group *group, double *stress)
+/* R S R^T */
+static void turn(const VECTOR R[9], const VECTOR S[6], VECTOR turned[6])
 {
-  const VECTOR *R = group->R, *S = group->stress;
-  VECTOR        T[9], turned[6]; /* R S, R S R^T */
+  VECTOR T[9]; /* R S */
   for (int r = 0; r < 9; r += 3) {
     T[r] = R[r] * S[XX] + R[r + 1] * S[XY] + R[r + 2] * S[XZ];
     T[r + 1] = R[r] * S[XY] + R[r + 1] * S[YY] + R[r + 2] * S[YZ];
@@ -223,6 +301,30 @@ void corotate_end(int m, struct corotate_group *group, double *stress)
   turned[XY] = T[0] * R[3] + T[1] * R[4] + T[2] * R[5];
   turned[YZ] = T[3] * R[6] + T[4] * R[7] + T[5] * R[8];
   turned[XZ] = T[0] * R[6] + T[1] * R[7] + T[2] * R[8];
+}
+
+/* the same in the plane, R = (c -s; s c) */
+static void turn_plane(const VECTOR R[9], const VECTOR S[6], VECTOR turned[6])
+{
+  VECTOR c = R[0], s = R[3], gap = s * (s * (S[YY] - S[XX]) - 2.0 * (c * S[XY]));
+  turned[XX] = S[XX] + gap;
+  turned[YY] = S[YY] - gap;
+  turned[ZZ] = S[ZZ];
+  turned[XY] = c * s * (S[XX] - S[YY]) + (c * c - s * s) * S[XY];
+  turned[YZ] = s * S[XZ] + c * S[YZ];
+  turned[XZ] = c * S[XZ] - s * S[YZ];
+}
+
+void corotate_end(int m, struct corotate_group *group, double *stress)
+{
+  VECTOR turned[6], flat[6];
+  MASK   across = ~group->plane;
+  if (vector_any(&across)) turn(group->R, group->stress, turned);
+  if (vector_any(&group->plane)) turn_plane(group->R, group->stress, flat);
+  if (vector_any(&across) && vector_any(&group->plane))
+    for (int k = 0; k < 6; k++) turned[k] = VECTOR_SELECT(group->plane, flat[k], turned[k]);
+  else if (vector_any(&group->plane))
+    memcpy(turned, flat, sizeof flat);
   for (int i = 0; i < m; i++)
     for (int k = 0; k < 6; k++) stress[6 * i + k] = turned[k][i];
 }

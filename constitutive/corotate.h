@@ -11,11 +11,14 @@
  * So a law is vector code on any machine, and a point gets the same bits in whatever company it comes. */
 enum { LANES = 8 };
 #define VECTOR double __attribute__((vector_size(LANES * sizeof(double))))
+/* What a comparison of two VECTORs gives: all bits of a lane where it holds. */
+#define MASK long __attribute__((vector_size(LANES * sizeof(long))))
 
 struct corotate_group {
   VECTOR strain[6]; /* log U, tensor components */
   VECTOR stress[6]; /* Pa; the law adds what the strain asks for */
   VECTOR R[9];
+  MASK   plane; /* points that move in the plane xy alone */
 };
 
 /** Number of points of the group that starts at point p of n. */

@@ -5,9 +5,6 @@
 
 #include "constitutive/corotate.h"
 
-/* What a comparison of two VECTORs gives: all bits of a lane where it holds. */
-#define MASK long __attribute__((vector_size(LANES * sizeof(long))))
-
 #define VECTOR_SELECT(mask, yes, no) ((VECTOR)(((MASK)(mask) & (MASK)(yes)) | (~(MASK)(mask) & (MASK)(no))))
 #define VECTOR_MAX(a, b) VECTOR_SELECT((a) > (b), a, b)
 #define VECTOR_MIN(a, b) VECTOR_SELECT((a) < (b), a, b)
