@@ -7,6 +7,9 @@
 
 #include "mpm/kernels/tile.tmpl.h"
 
+/* a point has strayed from the block: the tile gets its margin */
+#define RARE __attribute__((noinline, cold))
+
 #define PASTE_(dim, basis) kernels_##dim##d_##basis
 #define PASTE(dim, basis) PASTE_(dim, basis)
 
@@ -24,15 +27,20 @@ static inline const double *total_stress(const struct p2g_args *a, long p, doubl
 /* w m (v + C r); h in m */
 static inline void add_momentum(const struct p2g_args *a, const struct stencil *s, double h, long p, double *u)
 {
-  ROW w = a->mass[p] * s->w[0], wh = h * w, wr = (a->mass[p] * h) * s->wr[0];
+  ROW w = a->mass[p] * s->w[0], wh = h * w, wr = (a->mass[p] * h) * s->wr[0], row[DIM], y[DIM], z[DIM];
   tile_add_even(u, s, w);
   for (int d = 0; d < DIM; d++) {
-    const double *C = a->affine + (p * DIM + d) * DIM, vel = a->vel[p * DIM + d];
-    if (a->affine)
-      tile_add(u + (1 + d) * PITCH, s, s->wr, vel * w + C[0] * wr, C[1] * wh, C[DIM - 1] * wh);
-    else
+    const double *C = a->affine + (p * DIM + d) * DIM;
+    double        vel = a->vel[p * DIM + d];
+    if (a->affine) {
+      y[d] = C[1] * wh;
+      z[d] = C[DIM - 1] * wh;
+      row[d] = vel * w + C[0] * wr + s->r[1] * y[d];
+      if (DIM == 3) row[d] += s->r[2] * z[d];
+    } else
       tile_add_even(u + (1 + d) * PITCH, s, vel * w);
   }
+  if (a->affine) tile_add_linear(u + PITCH, s, DIM, row, y, z);
 }
 
 /* -V stress grad w; inverse_h in 1/m */
@@ -53,6 +61,24 @@ static inline void add_row(int components, int n, double (*restrict row)[PITCH],
     for (int d = 0; d < components; d++) node[i * components + d] += row[d][i];
 }
 
+static void p2g_close(const struct kernel_grid *kg, const struct p2g_args *a, struct tile *t)
+{
+  FOR_TILE_ROWS(t, j, k, row)
+  {
+    long node = grid_at(&kg->g, t->first[0], j, k);
+    if (a->mass_nc) add_row(1, t->count[0], row, a->mass_nc + node);
+    add_row(DIM, t->count[0], row + 1, a->mom_nc + node * DIM);
+    if (a->force_nc) add_row(DIM, t->count[0], row + 1 + DIM, a->force_nc + node * DIM);
+  }
+}
+
+static RARE void p2g_widen(const struct kernel_grid *kg, const struct p2g_args *a, struct tile *t)
+{
+  p2g_close(kg, a, t);
+  tile_reach(t, kg, BLOCK_MARGIN);
+  tile_clear(t, 1 + 2 * DIM);
+}
+
 /* scalars of the tile: mass, momentum, force */
 static void p2g(const struct kernel_grid *kg, const struct kernel_run *run, const struct p2g_args *a)
 {
@@ -62,15 +88,11 @@ static void p2g(const struct kernel_grid *kg, const struct kernel_run *run, cons
   tile_clear(&t, 1 + 2 * DIM);
   for (long p = run->begin; p < run->end; p++) {
     stencil_at(kg, t.at_wall, a->x + p * DIM, &s);
+    if (!tile_holds(&t, &s)) p2g_widen(kg, a, &t);
     add_momentum(a, &s, kg->g.h, p, tile_at(&t, &s));
     if (a->stress || a->pressure) add_force(a, &s, kg->inverse_h, p, tile_at(&t, &s));
   }
-  FOR_TILE_ROWS(&t, &kg->g, node, row)
-  {
-    if (a->mass_nc) add_row(1, t.count[0], row, a->mass_nc + node);
-    add_row(DIM, t.count[0], row + 1, a->mom_nc + node * DIM);
-    if (a->force_nc) add_row(DIM, t.count[0], row + 1 + DIM, a->force_nc + node * DIM);
-  }
+  p2g_close(kg, a, &t);
 }
 
 /* what a point gathers: sum w v r (in h; from which the affine matrix is made), w v, v grad w (in 1/h; then 1/s), and w
@@ -144,22 +166,6 @@ static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args
   }
 }
 
-/* Stencils of so many points are found before the first is used: finding one is a chain of operations that wait for one
- * another, those of several points go side by side. */
-enum { STENCILS = 8 };
-
-/* points [p, p + n); gradv [n][DIM][DIM] */
-static inline void g2p_points(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p, int n,
-                              double *gradv)
-{
-  struct stencil s[STENCILS];
-  for (int i = 0; i < n; i += STENCILS) {
-    int end = n - i < STENCILS ? n : i + STENCILS;
-    for (int j = i; j < end; j++) stencil_at(kg, t->at_wall, a->x + (p + j) * DIM, s + j - i);
-    for (int j = i; j < end; j++) g2p_point(kg, a, t, p + j, s + j - i, gradv + j * DIM * DIM);
-  }
-}
-
 /* velocity of a row of n nodes, and its change */
 static inline void take_row(int n, const double *restrict now, const double *restrict old,
                             double (*restrict row)[PITCH])
@@ -172,13 +178,46 @@ static inline void take_row(int n, const double *restrict now, const double *res
 }
 
 /* scalars of the tile: new velocity, its change */
+static void g2p_open(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t)
+{
+  tile_pad(t, 2 * DIM);
+  FOR_TILE_ROWS(t, j, k, row)
+  {
+    long node = grid_at(&kg->g, t->first[0], j, k);
+    take_row(t->count[0], a->vel_nc + node * DIM, a->vel_old_nc + node * DIM, row);
+  }
+}
+
+static RARE void g2p_widen(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t)
+{
+  tile_reach(t, kg, BLOCK_MARGIN);
+  g2p_open(kg, a, t);
+}
+
+/* Stencils of so many points are found before the first is used: finding one is a chain of operations that wait for one
+ * another, those of several points go side by side. */
+enum { STENCILS = 8 };
+
+/* points [p, p + n); gradv [n][DIM][DIM] */
+static inline void g2p_points(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p, int n,
+                              double *gradv)
+{
+  struct stencil s[STENCILS];
+  for (int i = 0; i < n; i += STENCILS) {
+    int end = n - i < STENCILS ? n : i + STENCILS;
+    for (int j = i; j < end; j++) stencil_at(kg, t->at_wall, a->x + (p + j) * DIM, s + j - i);
+    for (int j = i; j < end; j++) {
+      if (!tile_holds(t, s + j - i)) g2p_widen(kg, a, t);
+      g2p_point(kg, a, t, p + j, s + j - i, gradv + j * DIM * DIM);
+    }
+  }
+}
+
 static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, const struct g2p_args *a)
 {
   struct tile t;
   tile_place(&t, kg, run);
-  tile_pad(&t, 2 * DIM);
-  FOR_TILE_ROWS(&t, &kg->g, node, row)
-  take_row(t.count[0], a->vel_nc + node * DIM, a->vel_old_nc + node * DIM, row);
+  g2p_open(kg, a, &t);
   for (long p = run->begin; p < run->end; p += POINT_BATCH) {
     int    n = run->end - p < POINT_BATCH ? (int)(run->end - p) : POINT_BATCH;
     double own[POINT_BATCH * DIM * DIM], *gradv = a->gradv ? a->gradv + p * DIM * DIM : own;
@@ -187,64 +226,94 @@ static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, cons
   }
 }
 
-static inline void scatter_point(const struct kernel_grid *kg, const struct scatter_args *a, struct tile *t, long p)
+static inline void scatter_point(const struct kernel_grid *kg, const struct scatter_args *a, const struct stencil *s,
+                                 long p, double *u)
 {
-  struct stencil s;
-  stencil_at(kg, t->at_wall, a->x + p * DIM, &s);
-  double *u = tile_at(t, &s), weight = a->weight ? a->weight[p] : 1;
-  ROW     w = weight * s.w[0], wh = kg->g.h * w, wr = (weight * kg->g.h) * s.wr[0];
-  ROW     w_h = kg->inverse_h * w, slope = (weight * kg->inverse_h) * s.d[0];
+  double weight = a->weight ? a->weight[p] : 1, h = kg->g.h;
+  ROW    w = weight * s->w[0], wh = h * w, wr = (weight * h) * s->wr[0];
+  ROW    w_h = kg->inverse_h * w, slope = (weight * kg->inverse_h) * s->d[0];
   for (int q = 0; q < a->n; q++) {
     double        value = a->value[q] ? a->value[q][p] : 1;
     const double *A = a->gradient[q] + p * DIM, *flux = a->flux[q] + p * DIM;
     if (a->gradient[q])
-      tile_add(u + q * PITCH, &s, s.wr, value * w + A[0] * wr, A[1] * wh, A[DIM - 1] * wh);
+      tile_add(u + q * PITCH, s, s->wr, value * w + A[0] * wr, A[1] * wh, A[DIM - 1] * wh);
     else
-      tile_add_even(u + q * PITCH, &s, value * w);
-    if (a->flux[q]) tile_add(u + q * PITCH, &s, s.d, flux[0] * slope, flux[1] * w_h, flux[DIM - 1] * w_h);
+      tile_add_even(u + q * PITCH, s, value * w);
+    if (a->flux[q]) tile_add(u + q * PITCH, s, s->d, flux[0] * slope, flux[1] * w_h, flux[DIM - 1] * w_h);
   }
+}
+
+static void scatter_close(const struct kernel_grid *kg, const struct scatter_args *a, struct tile *t)
+{
+  FOR_TILE_ROWS(t, j, k, row)
+  for (int q = 0; q < a->n; q++) {
+    double *node = a->node[q] + grid_at(&kg->g, t->first[0], j, k), factor = a->factor[q] != 0 ? a->factor[q] : 1;
+    for (int i = 0; i < t->count[0]; i++) node[i] += factor * row[q][i];
+  }
+}
+
+static RARE void scatter_widen(const struct kernel_grid *kg, const struct scatter_args *a, struct tile *t)
+{
+  scatter_close(kg, a, t);
+  tile_reach(t, kg, BLOCK_MARGIN);
+  tile_clear(t, a->n);
 }
 
 static void scatter(const struct kernel_grid *kg, const struct kernel_run *run, const struct scatter_args *a)
 {
-  struct tile t;
+  struct tile    t;
+  struct stencil s;
   tile_place(&t, kg, run);
   tile_clear(&t, a->n);
-  for (long p = run->begin; p < run->end; p++) scatter_point(kg, a, &t, p);
-  FOR_TILE_ROWS(&t, &kg->g, node, row)
-  for (int q = 0; q < a->n; q++) {
-    double factor = a->factor[q] != 0 ? a->factor[q] : 1;
-    for (int i = 0; i < t.count[0]; i++) a->node[q][node + i] += factor * row[q][i];
+  for (long p = run->begin; p < run->end; p++) {
+    stencil_at(kg, t.at_wall, a->x + p * DIM, &s);
+    if (!tile_holds(&t, &s)) scatter_widen(kg, a, &t);
+    scatter_point(kg, a, &s, p, tile_at(&t, &s));
   }
+  scatter_close(kg, a, &t);
 }
 
-static inline void gather_point(const struct kernel_grid *kg, const struct gather_args *a, struct tile *t, long p)
+static inline void gather_point(const struct kernel_grid *kg, const struct gather_args *a, const struct stencil *s,
+                                long p, const double *u)
 {
-  struct stencil s;
-  stencil_at(kg, t->at_wall, a->x + p * DIM, &s);
-  const double *u = tile_at(t, &s);
-  long          step = a->gradient_stride ? a->gradient_stride : DIM;
+  long step = a->gradient_stride ? a->gradient_stride : DIM;
   for (int q = 0; q < a->n; q++) {
     struct sums sums;
     double      all[ROW_NODES];
-    tile_sum(u + q * PITCH, &s, &sums);
-    row_store(all, row_sums(s.w[0] * sums.w, s.d[0] * sums.w, s.w[0] * sums.dy, s.w[0] * sums.dz));
+    tile_sum(u + q * PITCH, s, &sums);
+    row_store(all, row_sums(s->w[0] * sums.w, s->d[0] * sums.w, s->w[0] * sums.dy, s->w[0] * sums.dz));
     if (a->value[q]) a->value[q][p] = all[0];
     for (int e = 0; e < DIM && a->gradient[q]; e++) a->gradient[q][p * step + e] = all[1 + e] * kg->inverse_h;
   }
 }
 
+static void gather_open(const struct kernel_grid *kg, const struct gather_args *a, struct tile *t)
+{
+  tile_pad(t, a->n);
+  FOR_TILE_ROWS(t, j, k, row)
+  for (int q = 0; q < a->n; q++) {
+    long node = grid_at(&kg->g, t->first[0], j, k), step = a->stride[q] ? a->stride[q] : 1;
+    for (int i = 0; i < t->count[0]; i++) row[q][i] = a->node[q][(node + i) * step];
+  }
+}
+
+static RARE void gather_widen(const struct kernel_grid *kg, const struct gather_args *a, struct tile *t)
+{
+  tile_reach(t, kg, BLOCK_MARGIN);
+  gather_open(kg, a, t);
+}
+
 static void gather(const struct kernel_grid *kg, const struct kernel_run *run, const struct gather_args *a)
 {
-  struct tile t;
+  struct tile    t;
+  struct stencil s;
   tile_place(&t, kg, run);
-  tile_pad(&t, a->n);
-  FOR_TILE_ROWS(&t, &kg->g, node, row)
-  for (int q = 0; q < a->n; q++) {
-    long step = a->stride[q] ? a->stride[q] : 1;
-    for (int i = 0; i < t.count[0]; i++) row[q][i] = a->node[q][(node + i) * step];
+  gather_open(kg, a, &t);
+  for (long p = run->begin; p < run->end; p++) {
+    stencil_at(kg, t.at_wall, a->x + p * DIM, &s);
+    if (!tile_holds(&t, &s)) gather_widen(kg, a, &t);
+    gather_point(kg, a, &s, p, tile_at(&t, &s));
   }
-  for (long p = run->begin; p < run->end; p++) gather_point(kg, a, &t, p);
 }
 
 static void weights(const struct kernel_grid *kg, const double *x, long *node, double *w, double (*gradient)[3])

@@ -8,20 +8,25 @@ enum { EDGE = BLOCK_2D + 2 * BLOCK_MARGIN + 3, EDGE_Z = 1, N1_Z = 1 };
 #else
 enum { EDGE = BLOCK_3D + 2 * BLOCK_MARGIN + 3, EDGE_Z = EDGE, N1_Z = N1 };
 #endif
-/* rows are padded: four nodes from any on lie within them. LINE: from a row to the next along y */
-enum { PITCH = EDGE + ROW_NODES - 1, LINE = LANES * PITCH };
+/* Rows are padded: four nodes from any on lie within PITCH. The nodes of points that have not left the block start
+ * where a cache line does, LEAD doubles further the margin before them; in 3D they fill one line. LINE: from a row to
+ * the next along y. */
+enum { CACHE_LINE = 8, PITCH = 16, LEAD = CACHE_LINE - BLOCK_MARGIN, LINE = LANES * PITCH };
+_Static_assert(EDGE + ROW_NODES - 1 <= PITCH, "a row of the tile holds the nodes of a block and its margin");
 
 struct tile {
-  double at[EDGE_Z][EDGE][LANES][PITCH]; /* [k][j][scalar][i] */
-  int    first[3], count[3];             /* lower node; nodes in use: a block at the border of the grid needs fewer */
-  bool   at_wall;                        /* some node may be a ghost of a modified wall */
+  _Alignas(64) double at[EDGE_Z * EDGE * LINE + CACHE_LINE]; /* [k][j][scalar][i], from LEAD on */
+  int  origin[3];                                            /* node whose place is [0][0][0] */
+  int  first[3], count[3]; /* nodes in use: those of points inside the block, or of those in its margin too */
+  bool at_wall;            /* some may be a ghost of a modified wall */
 };
 
 /* first node, and for up to four nodes along every axis weights, weights times distance r, derivatives; lengths in h */
 struct stencil {
-  int  first[3];
-  bool folded; /* a wall has changed the weights, and with them their second moment */
-  ROW  w[3], wr[3], d[3];
+  int    first[3];
+  bool   folded; /* a wall has changed the weights, and with them their second moment */
+  double r[3];   /* of the first node */
+  ROW    w[3], wr[3], d[3];
 };
 
 /* weights or derivatives where a node beyond a wall is the linear extrapolation of the two inside: q_-1 = 2 q_0 - q_1
@@ -56,6 +61,7 @@ static inline void stencil_at(const struct kernel_grid *kg, bool at_wall, const 
     s->first[axis] = first[axis];
     axis_weights(a[axis], kg->half_width[axis] * kg->inverse_h, &s->w[axis], &s->d[axis]);
     if (N1 > 2 && at_wall) s->folded |= fold_axis(kg, axis, first[axis], &s->w[axis], &s->d[axis]);
+    s->r[axis] = FIRST - a[axis];
     s->wr[axis] = s->w[axis] * ((ROW){FIRST, FIRST + 1, FIRST + 2, FIRST + 3} - a[axis]);
   }
 #if DIM == 2
@@ -65,46 +71,70 @@ static inline void stencil_at(const struct kernel_grid *kg, bool at_wall, const 
 #endif
 }
 
-/* nodes that points of the block can reach, all of them in the grid's ghosts at most */
+/* nodes of points up to `margin` cells outside the block, all of them in the grid's ghosts at most */
+static inline void tile_reach(struct tile *t, const struct kernel_grid *kg, int margin)
+{
+  for (int a = 0; a < 3; a++) {
+    t->first[a] = a < DIM ? t->origin[a] + BLOCK_MARGIN - margin : 0;
+    int edge = EDGE - 2 * (BLOCK_MARGIN - margin), last = kg->g.n[a] + 2 - t->first[a];
+    t->count[a] = a >= DIM ? 1 : last + 1 < edge ? last + 1 : edge;
+  }
+}
+
+/* a tile for points that have not left their block, in 2D for all */
 static inline void tile_place(struct tile *t, const struct kernel_grid *kg, const struct kernel_run *run)
 {
   t->at_wall = false;
   for (int a = 0; a < 3; a++) {
-    t->first[a] = a < DIM ? run->corner[a] - BLOCK_MARGIN - 1 : 0;
-    int last = kg->g.n[a] + 2 - t->first[a];
-    t->count[a] = a >= DIM ? 1 : last + 1 < EDGE ? last + 1 : EDGE;
-    t->at_wall |= a < DIM && ((kg->modified[2 * a] && t->first[a] < 0) || (kg->modified[2 * a + 1] && last < EDGE));
+    t->origin[a] = a < DIM ? run->corner[a] - BLOCK_MARGIN - 1 : 0;
+    t->at_wall |= a < DIM && ((kg->modified[2 * a] && t->origin[a] < 0) ||
+                              (kg->modified[2 * a + 1] && t->origin[a] + EDGE > kg->g.n[a]));
   }
+  tile_reach(t, kg, DIM == 2 ? BLOCK_MARGIN : 0);
 }
+
+/* Whether no place in the tile is negative, from either end. In 2D a tile is small and has its margin from the start.
+ */
+static inline bool tile_holds(const struct tile *t, const struct stencil *s)
+{
+  if (DIM == 2) return true;
+  int places = 0; /* their sign bits together */
+  for (int a = 0; a < DIM; a++) places |= (s->first[a] - t->first[a]) | (t->first[a] + t->count[a] - N1 - s->first[a]);
+  return places >= 0;
+}
+
+/* the scalars of a row of nodes from (i, j, k) on, [LANES][PITCH] */
+static inline double (*tile_row(struct tile *t, int i, int j, int k))[PITCH]
+{
+  return (double(*)[PITCH])(t->at + LEAD + ((k - t->origin[2]) * EDGE + j - t->origin[1]) * LINE + i - t->origin[0]);
+}
+
+/* for every row of the nodes in use: row = its scalars */
+#define FOR_TILE_ROWS(t, j, k, row)                                                                                    \
+  for (int k = (t)->first[2]; k < (t)->first[2] + (t)->count[2]; k++)                                                  \
+    for (int j = (t)->first[1]; j < (t)->first[1] + (t)->count[1]; j++)                                                \
+      for (double(*row)[PITCH] = tile_row(t, (t)->first[0], j, k), (*once_)[PITCH] = row; once_; once_ = NULL)
 
 /* empties the first n scalars */
 static inline void tile_clear(struct tile *t, int n)
 {
-  for (int k = 0; k < t->count[2]; k++)
-    for (int j = 0; j < t->count[1]; j++) memset(t->at[k][j], 0, (size_t)n * sizeof t->at[k][j][0]);
+  FOR_TILE_ROWS(t, j, k, row)
+  for (int q = 0; q < n; q++) memset(row[q], 0, (size_t)(t->count[0] + ROW_NODES - N1) * sizeof(double));
 }
 
 /* Empties what stands behind the nodes in use of the first n scalars: a row of a basis of fewer than four nodes reaches
  * there with weights of zero, and zero times what the stack held may be not a number. */
 static inline void tile_pad(struct tile *t, int n)
 {
-  for (int k = 0; k < t->count[2] && ROW_NODES - N1 > 0; k++)
-    for (int j = 0; j < t->count[1]; j++)
-      for (int q = 0; q < n; q++) memset(&t->at[k][j][q][t->count[0]], 0, (ROW_NODES - 1) * sizeof(double));
+  FOR_TILE_ROWS(t, j, k, row)
+  for (int q = 0; q < n && ROW_NODES - N1 > 0; q++) memset(row[q] + t->count[0], 0, (ROW_NODES - N1) * sizeof(double));
 }
 
 /* the first scalar at the first node of a stencil; the next scalar stands PITCH further */
 static inline double *tile_at(struct tile *t, const struct stencil *s)
 {
-  return &t->at[s->first[2] - t->first[2]][s->first[1] - t->first[1]][0][s->first[0] - t->first[0]];
+  return *tile_row(t, s->first[0], s->first[1], s->first[2]);
 }
-
-/* for every row of the tile: node = index in the grid of its first node, row = its scalars, [LANES][PITCH] */
-#define FOR_TILE_ROWS(t, g, node, row)                                                                                 \
-  for (int k_ = 0; k_ < (t)->count[2]; k_++)                                                                           \
-    for (int j_ = 0; j_ < (t)->count[1]; j_++)                                                                         \
-      for (long node = grid_at(g, (t)->first[0], (t)->first[1] + j_, (t)->first[2] + k_), once_ = 1; once_; once_ = 0) \
-        for (double(*row)[PITCH] = (t)->at[k_][j_]; once_; once_ = 0)
 
 /* adds to the scalar u of a point's nodes: rows along x that go with the weights of the other axes, and along y and z
  * with `slant` (wr or d of the stencil) instead of the weight. 2D has no z */
@@ -117,6 +147,23 @@ static inline void tile_add(double *u, const struct stencil *s, const ROW *slant
       double *row = u + (k * EDGE + j) * LINE;
       row_store(row, row_load(row) + s->w[1][j] * e + slant[1][j] * f);
     }
+  }
+}
+
+/* Adds w times something that grows linearly over the nodes of a point, to n scalars. row: along x at the lowest y and
+ * z, times the weights of x; it grows by y and z from a row to the next. */
+static inline void tile_add_linear(double *u, const struct stencil *s, int n, const ROW *row, const ROW *y,
+                                   const ROW *z)
+{
+  for (int k = 0; k < N1_Z; k++) {
+    ROW now[LANES], w = s->w[2][k] * s->w[1];
+    for (int q = 0; q < n; q++) now[q] = DIM == 3 && k > 0 ? row[q] + (double)k * z[q] : row[q];
+    for (int j = 0; j < N1; j++)
+      for (int q = 0; q < n; q++) {
+        double *node = u + (k * EDGE + j) * LINE + q * PITCH;
+        row_store(node, row_load(node) + w[j] * now[q]);
+        now[q] += y[q];
+      }
   }
 }
 
