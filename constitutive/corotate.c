@@ -4,10 +4,12 @@
 
 #include "constitutive/vector.h"
 
-/* Above this |E| (Frobenius) series of TERMS terms lose digits; beyond |dF - I| = 1 it may be a reflection. */
+/* Above |E| (Frobenius) = SMALL_STRETCH series of TERMS terms lose digits, above MEDIUM_STRETCH those of MORE_TERMS;
+ * beyond |dF - I| = 1 it may be a reflection. */
 #define SMALL_STRETCH 0.02
+#define MEDIUM_STRETCH 0.12
 #define SMALL_TURN 1.0
-enum { TERMS = 9 };
+enum { TERMS = 9, MORE_TERMS = 20 };
 
 /* A step of a group: G = dF - I, E, E2 = E E, |E|^2 and |G|^2. */
 struct step {
@@ -65,24 +67,44 @@ static void square(struct step *s)
   s->turn2 = (E[XX] + E[YY] + E[ZZ]) - 2.0 * (s->G[0] + s->G[4] + s->G[8]);
 }
 
-/* log(1 + E)/2 */
-static const double logarithm[TERMS + 1] = {0,        1.0 / 2,   -1.0 / 4, 1.0 / 6,   -1.0 / 8,
-                                            1.0 / 10, -1.0 / 12, 1.0 / 14, -1.0 / 16, 1.0 / 18};
+/* log(1 + E)/2 and (1 + E)^(-1/2) */
+static const double logarithm[MORE_TERMS + 1] = {
+    0,        1.0 / 2,   -1.0 / 4, 1.0 / 6,   -1.0 / 8, 1.0 / 10,  -1.0 / 12, 1.0 / 14,  -1.0 / 16, 1.0 / 18, -1.0 / 20,
+    1.0 / 22, -1.0 / 24, 1.0 / 26, -1.0 / 28, 1.0 / 30, -1.0 / 32, 1.0 / 34,  -1.0 / 36, 1.0 / 38,  -1.0 / 40};
+static const double root[MORE_TERMS + 1] = {1,
+                                            -1.0 / 2,
+                                            3.0 / 8,
+                                            -5.0 / 16,
+                                            35.0 / 128,
+                                            -63.0 / 256,
+                                            231.0 / 1024,
+                                            -429.0 / 2048,
+                                            6435.0 / 32768,
+                                            -12155.0 / 65536,
+                                            46189.0 / 262144,
+                                            -88179.0 / 524288,
+                                            676039.0 / 4194304,
+                                            -1300075.0 / 8388608,
+                                            5014575.0 / 33554432,
+                                            -9694845.0 / 67108864,
+                                            300540195.0 / 2147483648,
+                                            -583401555.0 / 4294967296,
+                                            2268783825.0 / 17179869184,
+                                            -4418157975.0 / 34359738368,
+                                            34461632205.0 / 274877906944};
 
 /* log U = log(I + E)/2 and U^-1 = (I + E)^(-1/2) by Horner with E^3 = i1 E^2 - i2 E + i3 I */
-static void series(const struct step *s, struct polynomial *log_U, struct polynomial *U_inverse)
+static void series(const struct step *s, int terms, struct polynomial *log_U, struct polynomial *U_inverse)
 {
-  static const double root[TERMS + 1] = {1,           -1.0 / 2,     3.0 / 8,       -5.0 / 16,      35.0 / 128,
-                                         -63.0 / 256, 231.0 / 1024, -429.0 / 2048, 6435.0 / 32768, -12155.0 / 65536};
-  const VECTOR       *E = s->E;
-  VECTOR              yz = E[YY] * E[ZZ] - E[YZ] * E[YZ];
-  VECTOR              i1 = E[XX] + E[YY] + E[ZZ];
-  VECTOR              i2 = (E[XX] * E[YY] - E[XY] * E[XY]) + yz + (E[XX] * E[ZZ] - E[XZ] * E[XZ]);
+  const VECTOR     *E = s->E;
+  VECTOR            yz = E[YY] * E[ZZ] - E[YZ] * E[YZ];
+  VECTOR            i1 = E[XX] + E[YY] + E[ZZ];
+  VECTOR            i2 = (E[XX] * E[YY] - E[XY] * E[XY]) + yz + (E[XX] * E[ZZ] - E[XZ] * E[XZ]);
   VECTOR            i3 = E[XX] * yz - E[XY] * (E[XY] * E[ZZ] - E[YZ] * E[XZ]) + E[XZ] * (E[XY] * E[YZ] - E[YY] * E[XZ]);
   struct polynomial l, r;
   memset(&l, 0, sizeof l);
   memset(&r, 0, sizeof r);
-  for (int k = TERMS; k >= 0; k--) {
+  for (int k = terms; k >= 0; k--) {
     VECTOR a = l.a, b = l.b, ra = r.a, rb = r.b;
     l.a = logarithm[k] + l.c * i3;
     r.a = root[k] + r.c * i3;
@@ -112,15 +134,15 @@ static void rotation(const struct step *s, const VECTOR U_inverse[6], VECTOR R[9
                                       s->G[3 * r + 2] * U_inverse[at[6 + c]]);
 }
 
-static void decompose(struct step *s, struct corotate_group *g)
+static void decompose(struct step *s, int terms, struct corotate_group *g)
 {
-  struct polynomial log_U, root;
+  struct polynomial log_U, U_root;
   VECTOR            U_inverse[6];
   stretch(s);
   square(s);
-  series(s, &log_U, &root);
+  series(s, terms, &log_U, &U_root);
   evaluate(s, &log_U, g->strain);
-  evaluate(s, &root, U_inverse);
+  evaluate(s, &U_root, U_inverse);
   rotation(s, U_inverse, g->R);
 }
 
@@ -134,7 +156,7 @@ static void find_plane(const struct step *s, MASK *plane)
 
 /* The same where all points move in the plane. log U by Horner with E^2 = i1 E - i2 I; of the rotation the cosine goes
  * with dF_xx + dF_yy, the sine with dF_yx - dF_xy. */
-static void decompose_plane(struct step *s, struct corotate_group *g)
+static void decompose_plane(struct step *s, int terms, struct corotate_group *g)
 {
   const VECTOR *G = s->G;
   VECTOR       *E = s->E, a = VECTOR_ALL(0.0), b = a, cosine = 2.0 + G[0] + G[4], sine = G[3] - G[1], length;
@@ -145,7 +167,7 @@ static void decompose_plane(struct step *s, struct corotate_group *g)
   VECTOR i1 = E[XX] + E[YY], i2 = E[XX] * E[YY] - E[XY] * E[XY];
   s->stretch2 = E[XX] * E[XX] + E[YY] * E[YY] + 2.0 * E[XY] * E[XY];
   s->turn2 = i1 - 2.0 * (G[0] + G[4]);
-  for (int k = TERMS; k >= 0; k--) {
+  for (int k = terms; k >= 0; k--) {
     VECTOR last = a;
     a = logarithm[k] - b * i2;
     b = last + b * i1;
@@ -160,18 +182,35 @@ static void decompose_plane(struct step *s, struct corotate_group *g)
   g->R[1] = -g->R[3];
 }
 
-/* some move in the plane, some do not: each as it would in other company */
-static void decompose_both(struct step *s, struct corotate_group *g)
+/* takes the lanes of a mask from another group */
+static void take_lanes(const MASK *mask, const struct corotate_group *other, struct corotate_group *g)
+{
+  for (int k = 0; k < 6; k++) g->strain[k] = VECTOR_SELECT(*mask, other->strain[k], g->strain[k]);
+  for (int k = 0; k < 9; k++) g->R[k] = VECTOR_SELECT(*mask, other->R[k], g->R[k]);
+}
+
+/* some points move in the plane, some do not: each as in any other company */
+static void decompose_both(struct step *s, int terms, struct corotate_group *g)
 {
   struct step           flat = *s;
   struct corotate_group other;
-  decompose(s, g);
-  decompose_plane(&flat, &other);
-  for (int k = 0; k < 6; k++) g->strain[k] = VECTOR_SELECT(g->plane, other.strain[k], g->strain[k]);
+  decompose(s, terms, g);
+  decompose_plane(&flat, terms, &other);
+  take_lanes(&g->plane, &other, g);
   for (int k = 0; k < 6; k++) s->E[k] = VECTOR_SELECT(g->plane, flat.E[k], s->E[k]);
-  for (int k = 0; k < 9; k++) g->R[k] = VECTOR_SELECT(g->plane, other.R[k], g->R[k]);
   s->stretch2 = VECTOR_SELECT(g->plane, flat.stretch2, s->stretch2);
   s->turn2 = VECTOR_SELECT(g->plane, flat.turn2, s->turn2);
+}
+
+static void decompose_any(struct step *s, int terms, struct corotate_group *g)
+{
+  MASK across = ~g->plane;
+  if (!vector_any(&across))
+    decompose_plane(s, terms, g);
+  else if (!vector_any(&g->plane))
+    decompose(s, terms, g);
+  else
+    decompose_both(s, terms, g);
 }
 
 /* ---- large steps ---- */
@@ -263,27 +302,32 @@ static void leave_unstrained(int i, struct corotate_group *g)
   for (int k = 0; k < 9; k++) g->R[k][i] = k % 4 == 0;
 }
 
-int corotate_begin(int m, const double *dF, const double *stress, struct corotate_group *group)
+/* points that need more terms, or eigenvalues; how many have neither */
+static int decompose_large(int m, struct step *s, struct corotate_group *g)
 {
-  struct step s;
-  MASK        across;
-  int         bad = 0;
-  load(m, dF, stress, &s, group);
-  find_plane(&s, &group->plane);
-  across = ~group->plane;
-  if (!vector_any(&across))
-    decompose_plane(&s, group);
-  else if (!vector_any(&group->plane))
-    decompose(&s, group);
-  else
-    decompose_both(&s, group);
-  if (all_small(&s)) return 0;
+  MASK medium = (MASK)(s->stretch2 > SMALL_STRETCH * SMALL_STRETCH) &
+                (MASK)(s->stretch2 <= MEDIUM_STRETCH * MEDIUM_STRETCH) & (MASK)(s->turn2 <= SMALL_TURN * SMALL_TURN);
+  int bad = 0;
+  if (vector_any(&medium)) {
+    struct corotate_group other = *g;
+    decompose_any(s, MORE_TERMS, &other);
+    take_lanes(&medium, &other, g);
+  }
   for (int i = 0; i < m; i++)
-    if (!is_small(&s, i) && !decompose_lane(&s, i, group)) {
-      leave_unstrained(i, group);
+    if (!is_small(s, i) && !medium[i] && !decompose_lane(s, i, g)) {
+      leave_unstrained(i, g);
       bad++;
     }
   return bad;
+}
+
+int corotate_begin(int m, const double *dF, const double *stress, struct corotate_group *group)
+{
+  struct step s;
+  load(m, dF, stress, &s, group);
+  find_plane(&s, &group->plane);
+  decompose_any(&s, TERMS, group);
+  return all_small(&s) ? 0 : decompose_large(m, &s, group);
 }
 
 /* R S R^T */
