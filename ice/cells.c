@@ -13,7 +13,7 @@ static void move_cells(struct sim *sim, struct ice *ice)
   double             half = 0.5 * grid_cell_volume(g);
   FOR_BOX(g, cells, c)
   {
-    if (!(ice->wet_cc[c] > 0)) continue;
+    if (!(ice->wet_cc[c] > 0) || (ice->advects && ice_has_surface(g, ice, c))) continue;
     for (int d = 0; d < g->dim; d++) {
       double impulse = 0;
       for (int high = 0; high < 2; high++) {
@@ -25,6 +25,33 @@ static void move_cells(struct sim *sim, struct ice *ice)
       ice->vel_cc[c * g->dim + d] += impulse / ice->mass_cc[c];
     }
   }
+}
+
+/* change of velocity that the open faces of a cell give it along one axis: where the liquid has a surface or flies,
+ * every face counts half whatever the cell holds; a cell without pressure hears only faces that have one, if any */
+static double loose_change(const struct sim *sim, const struct ice *ice, long c, int d)
+{
+  const struct grid *g = &sim->grid;
+  double             sum = 0, with_pressure = 0, pressed = 0;
+  for (int high = 0; high < 2; high++) {
+    long   q = d * g->size + c + high * g->stride[d];
+    double change = ice->u_fc[q] - ice->u_old_fc[q];
+    sum += 0.5 * change;
+    if (ice->kind[q] != FACE_SURFACE) continue;
+    with_pressure += change;
+    pressed++;
+  }
+  return pressed > 0 && !(ice->wet_cc[c] > 0) ? with_pressure / pressed : sum;
+}
+
+/* cells full of liquid take impulses, others the mean change of their faces */
+static void move_loose_cells(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  FOR_BOX(g, cells, c)
+  if (ice->mass_cc[c] > 0 && (!(ice->wet_cc[c] > 0) || ice_has_surface(g, ice, c)))
+    for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] += loose_change(sim, ice, c, d);
 }
 
 /* mass through a face in this step, kg, upwards; a surface only rises or falls with its cell */
@@ -75,6 +102,9 @@ static void remember_faces(struct sim *sim, struct ice *ice)
   }
 }
 
+/* drops smaller than this share of a cell do not limit the step: they are carried in parts of it */
+static const double least_drop = 0.01;
+
 /* fastest face velocity, and the defect as it was at the start of the step */
 static enum status watch(struct sim *sim, struct ice *ice)
 {
@@ -83,13 +113,14 @@ static enum status watch(struct sim *sim, struct ice *ice)
   double             fastest = 0, square = 0, most = 0, wet = 0;
   FOR_BOX_SERIAL(g, cells, c)
   {
-    if (!(ice->wet_cc[c] > 0)) continue;
+    bool drops = ice->advects && ice->alpha_cc[c] > least_drop;
+    if (!(ice->wet_cc[c] > 0) && !drops) continue;
     for (int d = 0; d < g->dim; d++)
       for (int high = 0; high < 2; high++) {
         long q = d * g->size + c + high * g->stride[d];
         fastest = isfinite(ice->u_fc[q]) ? fmax(fastest, fabs(ice->u_fc[q])) : INFINITY;
       }
-    if (ice_has_surface(g, ice, c)) continue;
+    if (!(ice->wet_cc[c] > 0) || (!ice->advects && ice_has_surface(g, ice, c))) continue;
     square += ice->defect_cc[c] * ice->defect_cc[c];
     most = fmax(most, fabs(ice->defect_cc[c]));
     wet++;
@@ -101,6 +132,18 @@ static enum status watch(struct sim *sim, struct ice *ice)
   sim->defect_max = fmax(sim->defect_max, most);
   if (fastest < INFINITY) return OK;
   return FAIL(ERR_DIVERGED, "ice: a fluid velocity is not finite at t = %g s; lower numerics.dt_factor", sim->t);
+}
+
+enum status ice_accelerate_cells(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct ice *ice = ice_of(sim);
+  TRY(watch(sim, ice));
+  move_cells(sim, ice);
+  move_loose_cells(sim, ice);
+  grid_fill_periodic(&sim->grid, sim->grid.dim, ice->vel_cc);
+  remember_faces(sim, ice);
+  return OK;
 }
 
 enum status ice_update_cells(struct sim *sim, double dt)

@@ -10,13 +10,15 @@
 
 #include <math.h>
 
-/* share of a cell inside the fluid region, from SAMPLES^dim places */
+/* share of a cell inside the fluid region, from SAMPLES^dim places; a cell away from the border needs none */
 static double filled_share(const struct sim *sim, long cell)
 {
-  enum { SAMPLES = 4 };
+  enum { SAMPLES = 20 };
   int    dim = sim->grid.dim, inside = 0, all = dim == 3 ? SAMPLES * SAMPLES * SAMPLES : SAMPLES * SAMPLES;
   double centre[3], x[3];
   grid_centre(&sim->grid, cell, centre);
+  double distance = shape_distance(&sim->scene->fluid.region, centre);
+  if (fabs(distance) > sim->grid.h) return distance < 0;
   for (int q = 0; q < all; q++) {
     for (int d = 0, left = q; d < 3; d++, left /= SAMPLES)
       x[d] = centre[d] + (d < dim ? ((left % SAMPLES + 0.5) / SAMPLES - 0.5) * sim->grid.h : 0);
@@ -39,9 +41,9 @@ static void fill_cells(struct sim *sim, struct ice *ice)
   FOR_BOX_SERIAL(&sim->grid, cells, c)
   {
     double share = filled_share(sim, c), x[3];
-    if (share <= 0.5) continue;
+    if (share <= (ice->advects ? 0 : 0.5)) continue;
     grid_centre(&sim->grid, c, x);
-    ice->wet_cc[c] = 1;
+    ice->wet_cc[c] = share > 0.5;
     ice->P_cc[c] = function_value(&sim->scene->fluid.pressure, x, 0);
     ice->mass_cc[c] = share; /* becomes a mass when the pressure is known */
     for (int d = 0; d < dim; d++) ice->vel_cc[c * dim + d] = function_value(&sim->scene->fluid.velocity[d], x, 0);
@@ -62,15 +64,19 @@ static enum face_kind classify(const struct sim *sim, const struct ice *ice, int
   int                place[3], wet = (ice->wet_cc[f] > 0) + (ice->wet_cc[f - g->stride[axis]] > 0);
   grid_place(g, f, place);
   bool low = place[axis] == 0, high = place[axis] == g->n[axis];
-  if ((low || high) && !g->periodic[axis])
-    return wet ? side_kind(&sim->scene->fluid_side[2 * axis + high]) : FACE_CLOSED;
+  if ((low || high) && !g->periodic[axis]) {
+    enum face_kind kind = side_kind(&sim->scene->fluid_side[2 * axis + high]);
+    enum face_kind dry = ice->advects && kind == FACE_PRESSURE ? FACE_VOID : FACE_CLOSED;
+    return wet || (ice->advects && kind == FACE_INLET) ? kind : dry;
+  }
   return wet == 2 ? FACE_INNER : wet == 1 ? FACE_SURFACE : FACE_VOID;
 }
 
-static void classify_faces(struct sim *sim, struct ice *ice)
+void ice_classify_faces(struct sim *sim, struct ice *ice)
 {
   const struct grid *g = &sim->grid;
   bool               fixed = false;
+  ice->surface = false;
   for (int axis = 0; axis < g->dim; axis++) {
     struct box faces = grid_faces(g, axis);
     for (int d = 0; d < g->dim; d++) faces.lo[d] -= g->periodic[d]; /* the nodes of a seam look there too */
@@ -167,7 +173,7 @@ static void weigh_cells(struct sim *sim, struct ice *ice, bool with_pressure)
   struct box cells = grid_cells(&sim->grid);
   double     V = grid_cell_volume(&sim->grid);
   FOR_BOX_SERIAL(&sim->grid, cells, c)
-  if (ice->wet_cc[c] > 0) {
+  if (ice->mass_cc[c] > 0) {
     double rho = density_at(sim, with_pressure ? ice->P_cc[c] : 0), old = ice->rho_cc[c];
     ice->mass_cc[c] *= with_pressure ? rho / old : rho * V * ice->porosity_cc[c];
     ice->rho_cc[c] = rho;
@@ -190,11 +196,19 @@ static void start_fluxes(struct sim *sim, struct ice *ice)
       double u =
           (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
       ice->water_fc[q] = ice->flux_fc[q] = ice->porosity_fc[q] * u;
+      ice->now.speed = fmax(ice->now.speed, fabs(u));
     }
   }
 }
 
-/* share of every node's room that is wet */
+/* distances to the surface need the saturation, before there is a density */
+static void saturate_at_start(struct sim *sim, struct ice *ice)
+{
+  struct box cells = grid_cells(&sim->grid);
+  FOR_BOX(&sim->grid, cells, c) ice->alpha_cc[c] = ice->mass_cc[c];
+}
+
+/* share of every node's room that is wet; a surface that moves: all of it */
 static void mark_extent(struct sim *sim)
 {
   const struct ice      *ice = ice_of(sim);
@@ -214,7 +228,7 @@ static void mark_extent(struct sim *sim)
       cells += inside;
       if (inside) wet += ice->wet_cc[n - offset[i]];
     }
-    c->fluid_fill_nc[n] = wet / cells;
+    c->fluid_fill_nc[n] = ice->advects ? 1 : wet / cells;
   }
 }
 
@@ -240,7 +254,7 @@ static void mark_reach(struct sim *sim)
     for (int q = 0; q < m->kernels->n_support; q++) c->fluid_reach_nc[node[q]] += w[q] * volume;
   }
   boundary_fold(&m->kernel_grid, sim->scene->solid_side, 1, c->fluid_reach_nc);
-  FOR_BOX_SERIAL(g, nodes, n) c->fluid_reach_nc[n] /= c->room_nc[n];
+  FOR_BOX_SERIAL(g, nodes, n) c->fluid_reach_nc[n] = ice->advects ? 1 : c->fluid_reach_nc[n] / c->room_nc[n];
 }
 
 enum status ice_create(struct sim *sim, void *state)
@@ -249,18 +263,21 @@ enum status ice_create(struct sim *sim, void *state)
   struct coupling *c = coupling_of(sim);
   long             faces = sim->grid.size * sim->grid.dim;
   ice->params = scene_module_params(sim->scene, &module_ice);
+  ice->advects = ice->params->advection;
   ice->skeleton = c != NULL;
   ice->moves = c && mpm_solid_moves(sim->scene);
   TRY(NEW(&ice->kind, faces));
   TRY(NEW(&ice->one, faces));
+  if (ice->advects) TRY(plic_create(&sim->grid, ice->pore_cc, &ice->plic));
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
   fill_cells(sim, ice);
+  if (ice->advects) saturate_at_start(sim, ice);
   if (c) mark_extent(sim);
   if (c) mark_reach(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
-  classify_faces(sim, ice);
+  ice_classify_faces(sim, ice);
   weigh_cells(sim, ice, false);
   TRY(rest_pressures(sim, ice));
   weigh_cells(sim, ice, true);

@@ -35,7 +35,8 @@ double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis,
   const struct grid *g = &sim->grid;
   switch (ice->kind[axis * g->size + face]) {
   case FACE_SURFACE: {
-    long   c = ice->wet_cc[face] > 0 ? face : face - g->stride[axis];
+    long low = face - g->stride[axis], c = ice->wet_cc[face] > 0 ? face : low;
+    if (ice->advects) return fmin(1, fmax(nearest_surface, ice->alpha_cc[low] + ice->alpha_cc[face] - 0.5));
     double fill = ice->mass_cc[c] / (ice->rho_cc[c] * grid_cell_volume(g)) + 1 - ice->porosity_cc[c];
     return fmin(farthest_surface, fmax(nearest_surface, fill - 0.5));
   }
@@ -103,6 +104,16 @@ enum status ice_update_properties(struct sim *sim, double dt)
   return check_range(sim, ice);
 }
 
+/* mean of the liquid of both cells by mass, where one of them has no pressure */
+static double mixed_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
+{
+  long   low = f - sim->grid.stride[axis];
+  double mass = ice->mass_cc[low] + ice->mass_cc[f];
+  int    dim = sim->grid.dim;
+  if (!(mass > 0)) return 0;
+  return (ice->mass_cc[low] * ice->vel_cc[low * dim + axis] + ice->mass_cc[f] * ice->vel_cc[f * dim + axis]) / mass;
+}
+
 double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   const struct grid *g = &sim->grid;
@@ -120,6 +131,26 @@ void ice_fill_faces(const struct sim *sim, double *field)
   for (int axis = 0; axis < sim->grid.dim; axis++) grid_fill_periodic(&sim->grid, 1, field + axis * sim->grid.size);
 }
 
+/* share of what a face had beyond the mean of its cells that it keeps: where liquid flows by, that is no longer its own
+ */
+static double memory_of(const struct sim *sim, const struct ice *ice, long f, double dt)
+{
+  static const double forgets = 10; /* e-foldings per cell of way */
+  const struct grid  *g = &sim->grid;
+  double              square = 0;
+  if (!ice->advects) return ice->params->memory;
+  for (int d = 0; d < g->dim; d++) square += ice->vel_cc[f * g->dim + d] * ice->vel_cc[f * g->dim + d];
+  return ice->params->memory * exp(-forgets * dt * sqrt(square) / g->h);
+}
+
+static double pressure_gradient(const struct sim *sim, const struct ice *ice, int axis, long f, double t)
+{
+  double outside = ice_outside_pressure(sim, ice, axis, f, t);
+  long   low = f - sim->grid.stride[axis];
+  double high_P = ice->wet_cc[f] > 0 ? ice->P_cc[f] : outside, low_P = ice->wet_cc[low] > 0 ? ice->P_cc[low] : outside;
+  return (high_P - low_P) / (ice_face_distance(sim, ice, axis, f) * sim->grid.h);
+}
+
 enum status ice_predict_faces(struct sim *sim, double dt)
 {
   struct ice        *ice = ice_of(sim);
@@ -130,13 +161,14 @@ enum status ice_predict_faces(struct sim *sim, double dt)
     FOR_BOX(g, faces, f)
     {
       ice->gradP_fc[base + f] = ice->u_old_fc[base + f] = ice->s_old_fc[base + f] = 0;
+      bool falls = ice->advects && ice->kind[base + f] == FACE_VOID;
+      if (falls) ice->u_old_fc[base + f] = mixed_velocity(sim, ice, axis, f);
       if (!ice_face_active(ice->kind[base + f])) continue;
-      long   low = f - g->stride[axis];
-      double outside = ice_outside_pressure(sim, ice, axis, f, sim->t + dt);
-      double high_P = ice->wet_cc[f] > 0 ? ice->P_cc[f] : outside,
-             low_P = ice->wet_cc[low] > 0 ? ice->P_cc[low] : outside;
-      ice->gradP_fc[base + f] = (high_P - low_P) / (ice_face_distance(sim, ice, axis, f) * g->h);
-      ice->u_old_fc[base + f] = ice_mean_velocity(sim, ice, axis, f) + ice->params->memory * ice->beyond_fc[base + f];
+      ice->gradP_fc[base + f] = pressure_gradient(sim, ice, axis, f, sim->t + dt);
+      bool mixed = ice->advects && ice->kind[base + f] == FACE_SURFACE;
+      ice->u_old_fc[base + f] =
+          mixed ? mixed_velocity(sim, ice, axis, f)
+                : ice_mean_velocity(sim, ice, axis, f) + memory_of(sim, ice, f, dt) * ice->beyond_fc[base + f];
     }
   }
   ice_fill_faces(sim, ice->gradP_fc);
@@ -216,6 +248,25 @@ enum status ice_predict_solid(struct sim *sim, double dt)
   return OK;
 }
 
+/* m/s2: what the pressure of now, and weight, would do to the liquid at a face */
+static double fastest_change(const struct sim *sim, const struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  double             gravity[3], most = 0;
+  sim_gravity(sim, sim->t, gravity);
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      if (!ice_face_active(ice->kind[axis * g->size + f])) continue;
+      double change =
+          gravity[axis] - pressure_gradient(sim, ice, axis, f, sim->t) / ice_face_density(ice, f - g->stride[axis], f);
+      most = fmax(most, fabs(change));
+    }
+  }
+  return most;
+}
+
 /* the fluid's and the faces' share of the time step: theory 4.7 */
 double ice_dt_limit(const struct sim *sim)
 {
@@ -223,6 +274,7 @@ double ice_dt_limit(const struct sim *sim)
   double gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
+  if (ice->advects) limit = fmin(limit, sqrt(0.5 * h / fastest_change(sim, ice)));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
 }
 

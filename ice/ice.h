@@ -4,6 +4,7 @@
 
 #include "core/linear.h"
 #include "core/sim.h"
+#include "ice/plic.h"
 
 /* what a face is to the fluid */
 enum face_kind {
@@ -12,10 +13,11 @@ enum face_kind {
   FACE_SURFACE,  /* between a wet cell and void: P = 0 at the surface */
   FACE_PRESSURE, /* side of the grid with a given pressure */
   FACE_INLET,    /* side of the grid with a given velocity */
-  FACE_VOID      /* between two void cells */
+  FACE_VOID      /* between two void cells; where drops fly, they fall freely */
 };
 
 struct ice_params {
+  bool   advection;        /* the liquid carries its momentum, and its surface goes where it flows */
   double memory;           /* share of what a face had beyond the mean of its cells that it keeps */
   double defect_share;     /* share of the volume defect that is made good per step */
   double defect_tolerance; /* volume that the defect's solve may leave, over a cell's */
@@ -28,9 +30,11 @@ struct ice {
   const struct ice_params *params;
   struct linear           *linear;
   unsigned char           *kind; /* [dim][size] enum face_kind */
-  double                  *one;  /* [dim][size] ones: porosity without a skeleton */
+  struct plic              plic;
+  double                  *one; /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
   bool                     skeleton, moves; /* there is a skeleton; it moves */
+  bool                     advects;         /* params->advection */
   bool                     surface;         /* some face is FACE_SURFACE */
   bool                     singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
@@ -67,8 +71,16 @@ double ice_face_density(const struct ice *ice, long low, long high);
 
 /** Velocity of the fluid at a face from its wet cells: mean of their momentum over what the face holds, so that a
  * steady flux through a change of porosity stays what it is. */
-double      ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
+double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
+/** Kinds of all faces from wet cells and sides. */
+void ice_classify_faces(struct sim *sim, struct ice *ice);
+/** Velocity along `axis` that the side prescribes at one of its faces, m/s. */
+double      ice_inlet_velocity(const struct sim *sim, int axis, int component, long f, double t);
 enum status ice_update_properties(struct sim *sim, double dt);
+enum status ice_find_surface(struct sim *sim, double dt);
+enum status ice_advect(struct sim *sim, double dt);
+enum status ice_diffuse_momentum(struct sim *sim, double dt);
+double      ice_viscous_dt(const struct sim *sim);
 enum status ice_predict_faces(struct sim *sim, double dt);
 enum status ice_predict_solid(struct sim *sim, double dt);
 enum status ice_resist_faces(struct sim *sim, double dt);
@@ -76,6 +88,7 @@ enum status ice_eliminate_drag(struct sim *sim, double dt);
 enum status ice_solve_pressure(struct sim *sim, double dt);
 enum status ice_correct_faces(struct sim *sim, double dt);
 enum status ice_move_defect(struct sim *sim, double dt);
+enum status ice_accelerate_cells(struct sim *sim, double dt);
 enum status ice_update_cells(struct sim *sim, double dt);
 enum status ice_push_solid(struct sim *sim, double dt);
 double      ice_dt_limit(const struct sim *sim);

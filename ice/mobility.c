@@ -123,13 +123,15 @@ static void eliminate_axis(struct sim *sim, struct ice *ice, int axis, double dt
     long q = base + i;
     ice->s_fc[q] = ice->s_old_fc[q];
     ice->u_fc[q] = ice->u_reply_fc[q] = ice->s_reply_fc[q] = 0;
-    if (!ice_face_active(ice->kind[q])) continue;
+    bool falls = ice->advects && ice->kind[q] == FACE_VOID;
+    if (!ice_face_active(ice->kind[q]) && !falls) continue;
     struct face f = {
         .n = ice->porosity_fc[q], .rho = ice_face_density(ice, i - g->stride[axis], i), .s = ice->s_old_fc[q]};
     f.u = ice->u_old_fc[q] - dt * (ice->gradP_fc[q] / f.rho - gravity[axis]);
     if (ice->skeleton) f.K = ice->drag_fc[q];
     if (ice->moves) f.rho_s = grain_density(m, c, i, corners, offset);
     eliminate(&f, dt, &ice->u_fc[q], &ice->s_fc[q], &ice->u_reply_fc[q], &ice->s_reply_fc[q]);
+    if (falls) ice->u_reply_fc[q] = ice->s_reply_fc[q] = 0;
   }
 }
 

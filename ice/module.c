@@ -10,6 +10,13 @@
 #include <math.h>
 
 static bool skeleton(const struct scene *sc) { return sc->n_solids > 0; }
+static bool advects(const struct scene *sc)
+{
+  const struct ice_params *params = scene_module_params(sc, &module_ice);
+  return params->advection;
+}
+static bool viscous(const struct scene *sc) { return advects(sc) && sc->fluid.viscosity > 0; }
+static bool rests(const struct scene *sc) { return !advects(sc); }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
 
 static const struct field fields[] = {
@@ -21,6 +28,10 @@ static const struct field fields[] = {
 static const struct stage stages[] = {
     {"ice.update_properties", SLOT_volume_fractions, "P_cc mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1", "always",
      NULL, ice_update_properties, NULL},
+    {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
+     "only with numerics.ice.advection", advects, ice_find_surface, NULL},
+    {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "momentum_cc vel_cc", "4.11",
+     "only with numerics.ice.advection and a viscosity", viscous, ice_diffuse_momentum, ice_viscous_dt},
     {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2",
      "always", NULL, ice_predict_faces, ice_dt_limit},
     {"ice.predict_solid", SLOT_predict, "mass_nc force_nc vel_nc solid_nc room_nc gradP_fc", "vel_star_nc s_old_fc",
@@ -32,16 +43,27 @@ static const struct stage stages[] = {
     {"ice.solve_pressure", SLOT_pressure, "u_fc s_fc u_reply_fc s_reply_fc flux_fc defect_cc",
      "coupling_fc diagonal_cc rhs_cc dP_cc flux_fc", "4.4", "always", NULL, ice_solve_pressure, NULL},
     {"ice.correct_faces", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
-     "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4", "always", NULL, ice_correct_faces, NULL},
+     "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4", "only without numerics.ice.advection", rests,
+     ice_correct_faces, NULL},
+    {"ice.correct_faces_and_trend", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
+     "u_fc s_fc flux_fc water_fc trend_fc carried_fc P_cc", "4.10", "only with numerics.ice.advection", advects,
+     ice_correct_faces, NULL},
     {"ice.move_defect", SLOT_defect, "defect_cc diagonal_cc coupling_fc carried_fc", "shift_cc carried_fc", "4.5",
      "only when a solid moves", moving, ice_move_defect, NULL},
     {"ice.update_cells", SLOT_cells, "u_fc u_old_fc carried_fc mass_cc vel_cc", "mass_cc vel_cc beyond_fc", "4.6",
-     "always", NULL, ice_update_cells, NULL},
+     "only without numerics.ice.advection", rests, ice_update_cells, NULL},
+    {"ice.accelerate_cells", SLOT_cells, "u_fc u_old_fc mass_cc vel_cc", "vel_cc beyond_fc", "4.10",
+     "only with numerics.ice.advection", advects, ice_accelerate_cells, NULL},
+    {"ice.advect", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc",
+     "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc", "4.10", "only with numerics.ice.advection", advects,
+     ice_advect, NULL},
     {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
      "only when a solid moves", moving, ice_push_solid, NULL},
 };
 
 static const struct param params[] = {
+    {"advection", PARAM_FLAG, offsetof(struct ice_params, advection), "-", 0, 0, "false", NULL,
+     "the liquid carries its momentum, and its surface goes where it flows; without, a surface stays in its cell"},
     {"memory", PARAM_NUMBER, offsetof(struct ice_params, memory), "-", 0, 1, "0.99", NULL,
      "share of what a face velocity had beyond the mean of its cells that is kept for the next step"},
     {"defect_share", PARAM_NUMBER, offsetof(struct ice_params, defect_share), "-", 0, 1, "1", NULL,
@@ -55,6 +77,7 @@ static void destroy(void *state)
   struct ice *ice = state;
   linear_destroy(&ice->linear);
   memory_free(&ice->kind);
+  plic_destroy(&ice->plic);
   memory_free(&ice->one);
 }
 
@@ -69,7 +92,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   FOR_BOX_SERIAL(g, cells, c)
   {
     double x[3], m = ice->mass_cc[c], kappa;
-    if (!(ice->wet_cc[c] > 0)) continue;
+    if (!(m > 0)) continue;
     grid_centre(g, c, x);
     fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], NULL, &kappa);
     l->v[LEDGER_mass_fluid] += m;

@@ -16,14 +16,13 @@ static const double largest_correction = 0.1;
 /* volume that a step may lose, over a cell's, however little flows: 1e-13 of stiff water (2 GPa) is 2e-4 Pa */
 static const double least_volume_error = 1e-13;
 
-/* velocity that the side prescribes at an inlet */
-static double inlet_velocity(const struct sim *sim, int axis, long f, double t)
+double ice_inlet_velocity(const struct sim *sim, int axis, int component, long f, double t)
 {
   int    place[3];
   double x[3];
   grid_place(&sim->grid, f, place);
   grid_face(&sim->grid, f, axis, x);
-  return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].velocity[axis], x, t);
+  return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].velocity[component], x, t);
 }
 
 /* entries of the matrix between cells, and the predicted flux in place of the old one where theta < 1 needs both */
@@ -40,7 +39,7 @@ static void face_entries(struct sim *sim, struct ice *ice, int axis, double dt)
     double n = ice->porosity_fc[q], predicted = 0;
     ice->coupling_fc[q] = 0;
     if (ice->kind[q] == FACE_INLET)
-      predicted = n * inlet_velocity(sim, axis, i, sim->t + dt);
+      predicted = n * ice_inlet_velocity(sim, axis, axis, i, sim->t + dt);
     else if (ice_face_active(ice->kind[q])) {
       predicted = n * ice->u_fc[q] + (1 - n) * ice->s_fc[q];
       ice->coupling_fc[q] =
@@ -50,12 +49,16 @@ static void face_entries(struct sim *sim, struct ice *ice, int axis, double dt)
   }
 }
 
-static bool is_clear(const struct ice *ice, long c) { return 1 - ice->porosity_cc[c] < clear_grains; }
+/* whether a cell's defect goes back into the pressure: clear ones, and with a surface that moves all that hold still */
+static bool is_clear(const struct ice *ice, long c)
+{
+  return 1 - ice->porosity_cc[c] < clear_grains || (ice->advects && !ice->moves);
+}
 
 /* volume per time that makes the defect of a cell good in this step, m3/s */
 static double defect_source(const struct sim *sim, const struct ice *ice, long c, double dt)
 {
-  if (ice_has_surface(&sim->grid, ice, c)) return 0;
+  if (!ice->advects && ice_has_surface(&sim->grid, ice, c)) return 0;
   double D = fmin(largest_correction, fmax(-largest_correction, ice->defect_cc[c]));
   return ice->params->defect_share * D * ice->porosity_cc[c] * grid_cell_volume(&sim->grid) / dt;
 }
@@ -153,11 +156,14 @@ static void correct_axis(struct sim *sim, struct ice *ice, int axis, double dt)
       ice->u_fc[q] -= ice->u_reply_fc[q] * push;
       ice->s_fc[q] -= ice->s_reply_fc[q] * push;
       water = n * ice->u_fc[q];
-    } else if (ice->kind[q] == FACE_INLET)
-      water = n * inlet_velocity(sim, axis, i, sim->t + dt);
+    } else if (ice->kind[q] == FACE_VOID)
+      water = n * ice->u_fc[q];
+    else if (ice->kind[q] == FACE_INLET)
+      water = n * ice_inlet_velocity(sim, axis, axis, i, sim->t + dt);
     ice->flux_fc[q] = ice->kind[q] == FACE_INLET      ? water
                       : ice_face_active(ice->kind[q]) ? water + (1 - n) * ice->s_fc[q]
                                                       : 0;
+    if (ice->trend_fc) ice->trend_fc[q] = ice->kind[q] == FACE_INNER ? water - ice->water_fc[q] : 0;
     ice->carried_fc[q] = theta * water + (1 - theta) * ice->water_fc[q];
     ice->water_fc[q] = water;
   }

@@ -1,0 +1,173 @@
+/* The liquid carries its mass and momentum, axis by axis. theory 4.10 */
+#include "ice/ice.h"
+
+#include "core/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* a cell filled to more than this share is full: there velocities have slopes */
+static const double full = 0.999;
+/* kg over what a full cell holds: a cell with less has no velocity */
+static const double least_mass = 1e-12;
+/* largest share of a cell that leaves it through a face in one sweep */
+static const double courant = 0.5;
+
+/* van Leer's harmonic mean of two slopes */
+static double limited(double a, double b) { return a * b > 0 ? 2 * a * b / (a + b) : 0; }
+
+/* whether a face lies in the full liquid, where fluxes are of second order */
+static bool is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f)
+{
+  long low = f - sim->grid.stride[axis];
+  return ice->kind[axis * sim->grid.size + f] == FACE_INNER && ice->alpha_cc[f] > full && ice->alpha_cc[low] > full &&
+         !ice_has_surface(&sim->grid, ice, f) && !ice_has_surface(&sim->grid, ice, low);
+}
+
+/* Component d of the velocity in the middle of the step that leaves cell `from` through its face: a limited slope, and
+ * half of what pressure, weight and viscosity have changed. Bell, Colella and Glaz 1989 */
+static double leaving_velocity(const struct sim *sim, const struct ice *ice, int axis, long from, bool up, int d,
+                               double courant_number)
+{
+  const struct grid *g = &sim->grid;
+  long               before = from - g->stride[axis], after = from + g->stride[axis];
+  double             own = ice->vel_cc[from * g->dim + d];
+  bool               known = ice->alpha_cc[before] > full && ice->alpha_cc[after] > full;
+  double slope = known ? limited(own - ice->vel_cc[before * g->dim + d], ice->vel_cc[after * g->dim + d] - own) : 0;
+  return own + (up ? 0.5 : -0.5) * (1 - courant_number) * slope + 0.5 * ice->vel_start_cc[from * g->dim + d];
+}
+
+/* momentum component d through a face in dt, kg m/s */
+static double carried_momentum(const struct sim *sim, const struct ice *ice, int axis, long f, int d, double dt)
+{
+  const struct grid *g = &sim->grid;
+  long               q = axis * g->size + f, low = f - g->stride[axis];
+  double             V = grid_cell_volume(g), liquid = ice->liquid_fc[q] * V;
+  long               from = liquid > 0 ? low : f;
+  if (ice->kind[q] == FACE_INLET) return liquid * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t);
+  if (!is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
+  double number = fabs(liquid) / (ice->porosity_cc[from] * V), coming = 0.5 * dt * V / g->h * ice->trend_fc[q];
+  return (liquid + coming) * ice->rho_cc[from] * leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
+}
+
+/* kg */
+static double carried_mass(const struct ice *ice, const struct grid *g, int axis, long f)
+{
+  long q = axis * g->size + f, low = f - g->stride[axis], from = ice->liquid_fc[q] > 0 ? low : f;
+  return ice->liquid_fc[q] * grid_cell_volume(g) * ice->rho_cc[from];
+}
+
+static void gather_momentum(struct sim *sim, struct ice *ice, int axis, double dt)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  FOR_BOX(g, cells, c)
+  for (int d = 0; d < g->dim; d++)
+    ice->momentum_cc[c * g->dim + d] = ice->mass_cc[c] * ice->vel_cc[c * g->dim + d] +
+                                       carried_momentum(sim, ice, axis, c, d, dt) -
+                                       carried_momentum(sim, ice, axis, c + g->stride[axis], d, dt);
+}
+
+/* masses and velocities after a sweep */
+static void gather_mass(struct sim *sim, struct ice *ice, int axis)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             V = grid_cell_volume(g);
+  FOR_BOX(g, cells, c)
+  {
+    double *m = &ice->mass_cc[c];
+    *m += carried_mass(ice, g, axis, c) - carried_mass(ice, g, axis, c + g->stride[axis]);
+    bool holds = *m > least_mass * ice->rho_cc[c] * ice->pore_cc[c] * V;
+    for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] = holds ? ice->momentum_cc[c * g->dim + d] / *m : 0;
+  }
+  grid_fill_periodic(g, 1, ice->mass_cc);
+  grid_fill_periodic(g, g->dim, ice->vel_cc);
+}
+
+/* net mass through the sides of the grid that this axis has, kg */
+static double mass_out(const struct sim *sim, const struct ice *ice, int axis)
+{
+  const struct grid *g = &sim->grid;
+  double             out = 0;
+  for (int high = 0; high < 2 && !g->periodic[axis]; high++) {
+    struct box side = grid_cells(g);
+    side.lo[axis] = high ? g->n[axis] : 0;
+    side.hi[axis] = side.lo[axis] + 1;
+    FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * carried_mass(ice, g, axis, f);
+  }
+  return out;
+}
+
+/* parts that a step is carried in, so that no face empties more than its share of a cell */
+static int parts_of_step(const struct sim *sim, const struct ice *ice, double dt)
+{
+  const struct grid *g = &sim->grid;
+  double             most = 0;
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      long   q = axis * g->size + f, from = ice->carried_fc[q] > 0 ? f - g->stride[axis] : f;
+      double share = dt * fabs(ice->carried_fc[q]) / (g->h * ice->porosity_cc[from]);
+      if (ice->porosity_cc[from] > 0) most = fmax(most, share);
+    }
+  }
+  return most > courant ? (int)ceil(most / courant) : 1;
+}
+
+/* rooms of the cells; behind sides that let something through a full one, filled with what would flow in */
+static void open_rooms(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  memset(ice->pore_cc, 0, (size_t)g->size * sizeof *ice->pore_cc);
+  FOR_BOX(g, cells, c) ice->pore_cc[c] = ice->porosity_cc[c];
+  grid_fill_periodic(g, 1, ice->pore_cc);
+  for (int side = 0; side < 2 * g->dim; side++) {
+    int        axis = side / 2, high = side % 2;
+    struct box faces = grid_cells(g);
+    if (g->periodic[axis]) continue;
+    faces.lo[axis] = high ? g->n[axis] : 0;
+    faces.hi[axis] = faces.lo[axis] + 1;
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      long           inside = high ? f - g->stride[axis] : f, beyond = high ? f : f - g->stride[axis];
+      enum face_kind kind = ice->kind[axis * g->size + f];
+      if (kind == FACE_CLOSED) continue;
+      ice->pore_cc[beyond] = 1;
+      ice->rho_cc[beyond] = ice->rho_cc[inside];
+      ice->alpha_cc[beyond] = kind == FACE_INLET || kind == FACE_PRESSURE;
+      for (int d = 0; d < g->dim; d++) ice->vel_cc[beyond * g->dim + d] = ice->vel_cc[inside * g->dim + d];
+    }
+  }
+}
+
+/* vel_start becomes what the step has changed so far */
+static void find_changes(struct sim *sim, struct ice *ice)
+{
+  long n = sim->grid.size * sim->grid.dim;
+  PARALLEL_FOR
+  for (long q = 0; q < n; q++) ice->vel_start_cc[q] = ice->vel_cc[q] - ice->vel_start_cc[q];
+}
+
+enum status ice_advect(struct sim *sim, double dt)
+{
+  struct ice        *ice = ice_of(sim);
+  const struct grid *g = &sim->grid;
+  int                parts = parts_of_step(sim, ice, dt);
+  open_rooms(sim, ice);
+  find_changes(sim, ice);
+  for (int part = 0; part < parts; part++) {
+    plic_begin(&ice->plic, ice->alpha_cc);
+    for (int i = 0; i < g->dim; i++) {
+      int  axis = plic_axis(g, sim->step + part, i);
+      long base = axis * g->size;
+      plic_sweep(&ice->plic, axis, dt / parts, ice->carried_fc + base, ice->alpha_cc, ice->liquid_fc + base);
+      gather_momentum(sim, ice, axis, dt / parts);
+      ice->now.mass_out += mass_out(sim, ice, axis);
+      gather_mass(sim, ice, axis);
+    }
+  }
+  return OK;
+}

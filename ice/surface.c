@@ -1,0 +1,49 @@
+/* Where the liquid ends now: saturation of the cells, which of them have a pressure, what every face is. theory 4.10 */
+#include "ice/ice.h"
+
+#include "core/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* a cell filled to more than this share has a pressure; others fall freely */
+static const double pressure_share = 0.5;
+
+static void saturate(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             V = grid_cell_volume(g);
+  FOR_BOX(g, cells, c)
+  {
+    ice->alpha_cc[c] = ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * V);
+    ice->wet_cc[c] = ice->alpha_cc[c] > pressure_share;
+    if (!(ice->wet_cc[c] > 0)) ice->P_cc[c] = 0;
+  }
+  grid_fill_periodic(g, 1, ice->alpha_cc);
+  grid_fill_periodic(g, 1, ice->wet_cc);
+  grid_fill_periodic(g, 1, ice->P_cc);
+}
+
+/* What must go: all that is beyond the pores; what is short only inside the liquid, and slowly: such a void closes by
+ * the pressure around it. */
+static double defect_of(const struct grid *g, const struct ice *ice, long c)
+{
+  static const double void_share = 0.1;
+  double              D = ice->alpha_cc[c] - 1;
+  if (!(ice->wet_cc[c] > 0)) return 0;
+  return D > 0 ? D : ice_has_surface(g, ice, c) ? 0 : void_share * D;
+}
+
+enum status ice_find_surface(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct ice        *ice = ice_of(sim);
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  saturate(sim, ice);
+  ice_classify_faces(sim, ice);
+  FOR_BOX(g, cells, c) ice->defect_cc[c] = defect_of(g, ice, c);
+  memcpy(ice->vel_start_cc, ice->vel_cc, (size_t)(g->size * g->dim) * sizeof(double));
+  return OK;
+}
