@@ -44,6 +44,7 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
   long               q = axis * g->size + f, low = f - g->stride[axis];
   double             V = grid_cell_volume(g), liquid = ice->liquid_fc[q] * V;
   long               from = liquid > 0 ? low : f;
+  if (liquid == 0) return 0; /* nobody knows what lies behind a wall */
   if (ice->kind[q] == FACE_INLET) return liquid * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t);
   if (!is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
   double number = fabs(liquid) / (ice->porosity_cc[from] * V), coming = 0.5 * dt * V / g->h * ice->trend_fc[q];
@@ -54,7 +55,7 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
 static double carried_mass(const struct ice *ice, const struct grid *g, int axis, long f)
 {
   long q = axis * g->size + f, low = f - g->stride[axis], from = ice->liquid_fc[q] > 0 ? low : f;
-  return ice->liquid_fc[q] * grid_cell_volume(g) * ice->rho_cc[from];
+  return ice->liquid_fc[q] != 0 ? ice->liquid_fc[q] * grid_cell_volume(g) * ice->rho_cc[from] : 0;
 }
 
 static void gather_momentum(struct sim *sim, struct ice *ice, int axis, double dt)

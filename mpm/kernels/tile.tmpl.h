@@ -71,12 +71,12 @@ static inline void stencil_at(const struct kernel_grid *kg, bool at_wall, const 
 #endif
 }
 
-/* nodes of points up to `margin` cells outside the block, all of them in the grid's ghosts at most */
+/* nodes of points up to `margin` cells outside the block; of the ghosts one layer, the only one that holds something */
 static inline void tile_reach(struct tile *t, const struct kernel_grid *kg, int margin)
 {
   for (int a = 0; a < 3; a++) {
     t->first[a] = a < DIM ? t->origin[a] + BLOCK_MARGIN - margin : 0;
-    int edge = EDGE - 2 * (BLOCK_MARGIN - margin), last = kg->g.n[a] + 2 - t->first[a];
+    int edge = EDGE - 2 * (BLOCK_MARGIN - margin), last = kg->g.n[a] + 1 - t->first[a];
     t->count[a] = a >= DIM ? 1 : last + 1 < edge ? last + 1 : edge;
   }
 }
