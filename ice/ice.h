@@ -74,7 +74,7 @@ double ice_face_density(const struct ice *ice, long low, long high);
 double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
 /** Kinds of all faces from wet cells and sides. */
 void ice_classify_faces(struct sim *sim, struct ice *ice);
-/** Velocity along `axis` that the side prescribes at one of its faces, m/s. */
+/** Component of the velocity that the side prescribes at one of its faces, m/s. */
 double      ice_inlet_velocity(const struct sim *sim, int axis, int component, long f, double t);
 enum status ice_update_properties(struct sim *sim, double dt);
 enum status ice_find_surface(struct sim *sim, double dt);

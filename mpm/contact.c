@@ -292,7 +292,6 @@ static double exchange(const struct sim *sim, const struct mpm *m, const struct 
 static void exchange_all(const struct sim *sim, struct mpm *m)
 {
   const struct contact_state *c = m->contact;
-  m->now.contact = 0;
   for (long k = 0; k < c->n; k++) {
     double work = exchange(sim, m, &c->meetings[k]);
     m->now.friction += work;
@@ -305,6 +304,7 @@ enum status mpm_resolve_contact(struct sim *sim, double dt)
 {
   struct mpm                  *m = mpm_of(sim);
   const struct side_condition *sides = m->sides;
+  m->now.contact = 0;
   TRY(find_meetings(sim, m, m->contact));
   if (m->contact->n == 0) return OK;
   volume_gradients(sim, m);
