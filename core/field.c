@@ -10,7 +10,14 @@ int field_components(const struct field *f, const struct scene *scene)
     return scene->dim * scene->dim;
   case HISTORY:
     return scene->n_history;
+  case FLUIDS:
+    return 1;
   default:
     return f->components;
   }
+}
+
+int field_copies(const struct field *f, const struct scene *scene)
+{
+  return f->components == FLUIDS && scene->n_fluids > 1 ? scene->n_fluids : 1;
 }

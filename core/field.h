@@ -18,8 +18,9 @@ enum { FIELD_POISON = 1 };
 enum { FIELD_POISON = 0 };
 #endif
 
-/* components: a number, or one that depends on the dimension, or on the materials (history of their laws) */
-enum { VECTOR = -1, MATRIX = -2, HISTORY = -3, SYMMETRIC = 6 };
+/* components: a number, or one that depends on the dimension, or on the materials (history of their laws). FLUIDS: one
+ * number for every fluid of the scene, in a copy of the field for each: [fluid][size], the first fluid in front. */
+enum { VECTOR = -1, MATRIX = -2, HISTORY = -3, FLUIDS = -4, SYMMETRIC = 6 };
 
 struct scene;
 
@@ -35,6 +36,8 @@ struct field {
 
 /** Components of a field in this scene. */
 int field_components(const struct field *f, const struct scene *scene);
+/** Copies of it: one, or one for every fluid. */
+int field_copies(const struct field *f, const struct scene *scene);
 
 /* A module's state starts with   FIELDS_MEMBERS   and its table is made with   FIELDS_TABLE(struct mpm).
  * FIELD(name, at, components, kind, output, unit, meaning) */

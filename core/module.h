@@ -11,7 +11,8 @@ struct ledger;
 struct module {
   const char *name; /* the folder; for a fluid path also its word in fluid.path */
   bool        is_fluid_path;
-  enum where  meets_at; /* a fluid path: where it wants the solid, AT_NODE or AT_FACE */
+  bool        several_fluids; /* a fluid path: it takes more than one fluid */
+  enum where  meets_at;       /* a fluid path: where it wants the solid, AT_NODE or AT_FACE */
   bool (*needed)(const struct scene *);
   const struct param *params; /* numerics.<name>.*; ends with PARAM_END; may be NULL */
   size_t              params_size;

@@ -43,6 +43,7 @@ struct solid {
 };
 
 struct fluid {
+  char                   name[NAME_LENGTH]; /* "": the first one */
   bool                   present;
   const struct module   *path;
   double                 density;      /* kg/m3 at the reference pressure */
@@ -237,7 +238,9 @@ struct scene {
   struct gauge         *gauges;
   struct reference_use *references;
   struct metric        *metrics;
-  struct fluid          fluid;
+  struct fluid          fluid;              /* the first one, the liquid */
+  int                   n_others, n_fluids; /* n_fluids counts the first one too; 0: a dry scene */
+  struct fluid         *others;             /* in the order of the scene; they fill what earlier ones leave */
   struct side_condition solid_side[SIDES], fluid_side[SIDES];
   struct heat_side      heat_side[SIDES];
   struct numerics       numerics;
@@ -249,6 +252,12 @@ struct scene {
 static inline const struct material *scene_material(const struct scene *scene, int group)
 {
   return &scene->materials[scene->solids[group].material];
+}
+
+/** Fluid i < n_fluids; 0 is the liquid. */
+static inline const struct fluid *scene_fluid(const struct scene *scene, int i)
+{
+  return i == 0 ? &scene->fluid : &scene->others[i - 1];
 }
 
 /** Parameters of a module, as its table filled them. */

@@ -82,11 +82,12 @@ static enum status transfer_points(const struct transfer_file *f, const char *se
 
 static enum status transfer_fields(const struct transfer_file *f, const struct sim *sim)
 {
-  char              name[3 * NAME_LENGTH];
+  char              own[3 * NAME_LENGTH], name[5 * NAME_LENGTH];
   struct field_view v;
   for (int cursor = 0; fields_next(sim, &cursor, &v);) {
     if (v.field->kind != STATE) continue;
-    snprintf(name, sizeof name, "fields/%s/%s", v.module->name, v.field->name);
+    fields_copy_name(sim->scene, v.field->name, v.copy, own);
+    snprintf(name, sizeof name, "fields/%s/%s", v.module->name, own);
     TRY(transfer(f, name, H5_DOUBLE, fields_length(sim, &v), v.data));
   }
   return OK;

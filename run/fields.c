@@ -27,24 +27,36 @@ static long entries(const struct sim *sim, enum where at)
   }
 }
 
+static long length_of(const struct sim *sim, const struct field *f)
+{
+  return entries(sim, f->at) * field_components(f, sim->scene) * (f->at == AT_FACE ? sim->grid.dim : 1);
+}
+
 bool fields_next(const struct sim *sim, int *cursor, struct field_view *view)
 {
-  int i = (*cursor)++;
-  for (int m = 0; m < sim->n_modules; i -= sim->modules[m++]->n_fields) {
-    if (i >= sim->modules[m]->n_fields) continue;
-    const struct field *f = &sim->modules[m]->fields[i];
-    double             *data = data_of(sim, m, f);
-    if (!data) return fields_next(sim, cursor, view);
-    *view = (struct field_view){sim->modules[m], f, data, field_components(f, sim->scene), entries(sim, f->at)};
-    return true;
-  }
+  int left = (*cursor)++;
+  for (int m = 0; m < sim->n_modules; m++)
+    for (int i = 0; i < sim->modules[m]->n_fields; i++) {
+      const struct field *f = &sim->modules[m]->fields[i];
+      int                 copies = field_copies(f, sim->scene), copy = left;
+      left -= copies;
+      if (left >= 0) continue;
+      double *data = data_of(sim, m, f);
+      if (!data) return fields_next(sim, cursor, view);
+      *view = (struct field_view){
+          sim->modules[m],     f, data + copy * length_of(sim, f), field_components(f, sim->scene), copy,
+          entries(sim, f->at),
+      };
+      return true;
+    }
   return false;
 }
 
 void fields_refresh(const struct sim *sim, struct field_view *view)
 {
   for (int m = 0; m < sim->n_modules; m++)
-    if (sim->modules[m] == view->module) view->data = data_of(sim, m, view->field);
+    if (sim->modules[m] == view->module)
+      view->data = data_of(sim, m, view->field) + view->copy * length_of(sim, view->field);
   view->n = entries(sim, view->field->at);
 }
 
@@ -97,6 +109,15 @@ static const char *history_name(const struct scene *scene, int component)
   return name;
 }
 
+void fields_copy_name(const struct scene *scene, const char *name, int copy, char own[3 * NAME_LENGTH])
+{
+  static const char first[] = "_fluid";
+  size_t            n = strlen(name), tail = sizeof first - 1;
+  if (copy > 0 && n > tail && strcmp(name + n - tail, first) == 0) n -= tail;
+  snprintf(own, 3 * NAME_LENGTH, "%.*s%s%s", (int)n, name, copy > 0 ? "_" : "",
+           copy > 0 ? scene_fluid(scene, copy)->name : "");
+}
+
 const char *fields_suffix(const struct field *f, const struct scene *scene, int component)
 {
   static const char *const vector[] = {"x", "y", "z"}, *const symmetric[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
@@ -104,6 +125,7 @@ const char *fields_suffix(const struct field *f, const struct scene *scene, int 
   static const char *const number[] = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
   switch (f->components) {
   case 1:
+  case FLUIDS:
     return "";
   case VECTOR:
     return vector[component];
@@ -119,11 +141,13 @@ const char *fields_suffix(const struct field *f, const struct scene *scene, int 
 }
 
 /* Whether `of`, without a set in front, is component c of the field. */
-static bool is_component(const struct field *f, const struct scene *scene, int c, const char *of)
+static bool is_component(const struct field_view *v, const struct scene *scene, int c, const char *of)
 {
-  const char *suffix = fields_suffix(f, scene, c);
-  size_t      n = strlen(f->output);
-  if (strncmp(of, f->output, n) != 0) return false;
+  const char *suffix = fields_suffix(v->field, scene, c);
+  char        name[3 * NAME_LENGTH];
+  fields_copy_name(scene, v->field->output, v->copy, name);
+  size_t n = strlen(name);
+  if (strncmp(of, name, n) != 0) return false;
   return *suffix ? of[n] == '_' && strcmp(of + n + 1, suffix) == 0 : of[n] == '\0';
 }
 
@@ -135,7 +159,7 @@ static bool find(const struct sim *sim, enum where at, const char *of, struct fi
   while (fields_next(sim, &cursor, view))
     for (*component = 0; *component < view->components; (*component)++)
       if (view->field->at == at && view->field->output &&
-          is_component(view->field, sim->scene, *component, dot ? dot + 1 : of))
+          is_component(view, sim->scene, *component, dot ? dot + 1 : of))
         return true;
   return false;
 }
@@ -149,8 +173,10 @@ static enum status unknown(const struct sim *sim, const char *of)
   while (fields_next(sim, &cursor, &v))
     for (int c = 0; v.field->output && fields_set(v.field->at) && c < v.components && n < sizeof list; c++) {
       const char *suffix = fields_suffix(v.field, sim->scene, c);
-      n += (size_t)snprintf(list + n, sizeof list - n, "%s%s.%s%s%s", n ? ", " : "", fields_set(v.field->at),
-                            v.field->output, *suffix ? "_" : "", suffix);
+      char        name[3 * NAME_LENGTH];
+      fields_copy_name(sim->scene, v.field->output, v.copy, name);
+      n += (size_t)snprintf(list + n, sizeof list - n, "%s%s.%s%s%s", n ? ", " : "", fields_set(v.field->at), name,
+                            *suffix ? "_" : "", suffix);
     }
   return FAIL(ERR_INPUT, "\"%s\" is no field of this run; there are: %s", of, list);
 }

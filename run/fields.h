@@ -12,7 +12,8 @@ struct field_view {
   const struct field  *field;
   double              *data; /* [n][components]; faces [dim][n][components] */
   int                  components;
-  long                 n; /* entries: points, markers, or grid.size with ghosts */
+  int                  copy; /* the fluid that it belongs to */
+  long                 n;    /* entries: points, markers, or grid.size with ghosts */
 };
 
 /** Fields of all planned modules, one after the other; *cursor starts at 0. false: no more. Fields that the plan does
@@ -34,6 +35,9 @@ enum status fields_component(const struct sim *sim, const char *of, struct field
 
 /** Name of the written set: cells, solid, water; NULL for places that are not written. */
 const char *fields_set(enum where at);
+/** Name of a copy of a field made from its name or output name: of the first fluid as it stands, of others with their
+ *  name, "mass_fluid" -> "mass_air", "saturation" -> "saturation_air". */
+void fields_copy_name(const struct scene *scene, const char *name, int copy, char own[3 * NAME_LENGTH]);
 /** Suffix of a component, "x", "yy", "3"; "" for a scalar. */
 const char *fields_suffix(const struct field *f, const struct scene *scene, int component);
 

@@ -227,14 +227,15 @@ static enum status write_mesh(struct h5 *h, const struct mesh *m)
   return h5_write(h, "VTKHDF/Types", H5_BYTE, m->n_cells, 0, m->types);
 }
 
-static enum status write_field(const struct output_writer *o, struct h5 *h, const struct grid *g,
+static enum status write_field(const struct output_writer *o, struct h5 *h, const struct sim *sim,
                                const struct field_view *v)
 {
-  char       name[2 * NAME_LENGTH];
+  char       own[3 * NAME_LENGTH], name[4 * NAME_LENGTH];
   const int  n = padded_components(v);
   const long rows = v->field->at == AT_CELL ? o->mesh[0].n_cells : v->n;
-  snprintf(name, sizeof name, "VTKHDF/%s/%s", v->field->at == AT_CELL ? "CellData" : "PointData", v->field->output);
-  make_ready(g, v, o->values);
+  fields_copy_name(sim->scene, v->field->output, v->copy, own);
+  snprintf(name, sizeof name, "VTKHDF/%s/%s", v->field->at == AT_CELL ? "CellData" : "PointData", own);
+  make_ready(&sim->grid, v, o->values);
   TRY(h5_write(h, name, H5_DOUBLE, rows, n == 1 ? 0 : n, o->values));
   TRY(h5_set_text(h, name, "unit", v->field->unit));
   return h5_set_text(h, name, "meaning", v->field->meaning);
@@ -268,7 +269,7 @@ static enum status write_set(struct output_writer *o, const struct sim *sim, str
   TRY(write_mesh(h, &o->mesh[set]));
   if (p) TRY(write_groups(h, p));
   for (int cursor = 0; fields_next(sim, &cursor, &v);)
-    if (v.field->at == written[set] && v.field->output) TRY(write_field(o, h, &sim->grid, &v));
+    if (v.field->at == written[set] && v.field->output) TRY(write_field(o, h, sim, &v));
   return OK;
 }
 

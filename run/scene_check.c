@@ -112,6 +112,20 @@ static enum status check_material(struct reader *reader, const struct scene *sce
   return OK;
 }
 
+static enum status check_fluids(struct reader *reader, const struct scene *scene)
+{
+  for (int i = 0; i < scene->n_others; i++) {
+    at(reader, "fluids.%s", scene->others[i].name);
+    if (!scene->fluid.present) return reader_fail(reader, "the scene has no \"fluid\", which comes first; add one");
+    if (strcmp(scene->others[i].name, "fluid") == 0)
+      return reader_fail(reader, "the first fluid is called so already; rename it");
+    if (!scene->fluid.path->several_fluids)
+      return reader_fail(reader, "path %s moves one fluid; leave \"fluids\" out or take another path",
+                         scene->fluid.path->name);
+  }
+  return OK;
+}
+
 static enum status check_materials(struct reader *reader, struct scene *scene)
 {
   if (scene->n_materials > 255)
@@ -225,6 +239,7 @@ enum status scene_check(struct reader *reader, struct scene *scene)
   TRY(check_sides(reader, scene));
   if (scene->n_solids == 0 && !scene->fluid.present)
     return reader_fail(at(reader, "solids"), "the scene holds neither a solid nor a fluid; add one");
+  TRY(check_fluids(reader, scene));
   TRY(check_materials(reader, scene));
   TRY(scene_check_heat(reader, scene));
   TRY(check_metrics(reader, scene));

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WORD = 2 * NAME_LENGTH, MOST = 256 };
+enum { WORD = 5 * NAME_LENGTH, MOST = 256 };
 
 /* Names of what may be asked for, with room for them. */
 struct words {
@@ -29,6 +29,14 @@ static bool takes_part(const struct scene *scene, const struct module *m)
   return !m->needed || m->needed(scene);
 }
 
+static void add_copy(const struct scene *scene, struct words *words, bool with_set, const struct field *f, int copy)
+{
+  char name[3 * NAME_LENGTH];
+  fields_copy_name(scene, f->output, copy, name);
+  for (int c = 0; c < field_components(f, scene); c++)
+    add_word(words, with_set ? fields_set(f->at) : "", name, fields_suffix(f, scene, c));
+}
+
 /** Every component of every written field, as "P", "vel_x", and as "solid.vel_x". */
 static void add_fields(const struct scene *scene, struct words *words, bool with_set)
 {
@@ -36,8 +44,7 @@ static void add_fields(const struct scene *scene, struct words *words, bool with
     for (int k = 0; takes_part(scene, all_modules[i]) && k < all_modules[i]->n_fields; k++) {
       const struct field *f = &all_modules[i]->fields[k];
       if (!f->output || !fields_set(f->at)) continue;
-      for (int c = 0; c < field_components(f, scene); c++)
-        add_word(words, with_set ? fields_set(f->at) : "", f->output, fields_suffix(f, scene, c));
+      for (int copy = 0; copy < field_copies(f, scene); copy++) add_copy(scene, words, with_set, f, copy);
     }
 }
 

@@ -56,6 +56,7 @@ static enum status read_scene(struct reader *reader, struct loaded_scene *loaded
   TRY(section_read(reader, &scene_section, loaded->json, loaded->json, scene));
   fluid = json_member(loaded->json, "fluid");
   scene->fluid.present = cJSON_IsObject(fluid);
+  scene->n_fluids = scene->n_others + scene->fluid.present;
   scene->contact.present = cJSON_IsObject(json_member(loaded->json, "contact"));
   scene_number_bodies(scene);
   TRY(scene_check(reader, scene));

@@ -147,6 +147,26 @@ static const struct entry fluid_entries[] = {
     SECTION("eos", eos_section, 0, "{}", "equation of state"), SECTION("drag", drag_section, 0, "{}", "drag law"),
     VALUE("region", shape, fluid, region, "everywhere", "-", "region that it fills at the start, pores included"),
     ENTRY_END};
+static const struct choice  gas_choice = {"law",          "ideal_gas",           "equation of state", eos_row,
+                                          AT(fluid, eos), AT(fluid, eos_params), "docs/theory.md",    eos_given};
+static const struct section gas_section = {.meaning = "equation of state", .choice = &gas_choice, .word = true};
+static const struct param   other_params[] = {
+      {"density", PARAM_NUMBER, AT(fluid, density), "kg/m3", 1e-6, 1e6, "1.1766", NULL,
+       "density at the reference pressure"},
+      {"bulk_modulus", PARAM_NUMBER, AT(fluid, bulk_modulus), "Pa", 1e-6, INFINITY, "2.2e9", NULL,
+       "bulk modulus; \"infinite\": incompressible; not used by gases"},
+      {"viscosity", PARAM_NUMBER, AT(fluid, viscosity), "Pa s", 0, 1e6, "1.845e-5", NULL, "dynamic viscosity"},
+      {"velocity", PARAM_FUNCTION3, AT(fluid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
+      PARAM_END};
+static const struct entry other_entries[] = {
+    SECTION("eos", gas_section, 0, "{}", "equation of state; gases want absolute pressures of the whole scene"),
+    VALUE("region", shape, fluid, region, "everywhere", "-",
+          "region that it fills at the start, as far as earlier fluids leave room"),
+    ENTRY_END};
+static const struct section other_section = {.meaning = "fluid beside the first",
+                                             .size = sizeof(struct fluid),
+                                             .params = other_params,
+                                             .entries = other_entries};
 static const struct section fluid_section = {.meaning = "liquid", .params = fluid_params, .entries = fluid_entries};
 
 /* ---- sides ---- */
@@ -412,6 +432,8 @@ static const struct entry scene_entries[] = {
     SECTION("contact", contact_section, AT(scene, contact), NULL,
             "contact between bodies; leave it out and all solids share one velocity field"),
     SECTION("fluid", fluid_section, AT(scene, fluid), NULL, "the liquid; leave it out for a dry scene"),
+    {"fluids", ENTRY_MAP, NULL, &other_section, AT(scene, others), AT(scene, n_others), "{}", NULL, NULL, "-",
+     "more fluids by name, such as the air above a liquid", false},
     SECTION("boundary", boundary_section, 0, "{}", "conditions at the sides of the grid"),
     MAP("obstacles", obstacle_section, obstacles, "rigid bodies by name"),
     MAP("loads", load_section, loads, "tractions by name"),

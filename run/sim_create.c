@@ -9,7 +9,7 @@
 /* number of doubles of a field */
 static size_t field_length(const struct sim *sim, const struct field *f)
 {
-  size_t n = (size_t)field_components(f, sim->scene);
+  size_t n = (size_t)(field_components(f, sim->scene) * field_copies(f, sim->scene));
   switch (f->at) {
   case AT_NODE:
   case AT_CELL:
