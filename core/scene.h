@@ -54,9 +54,17 @@ struct fluid {
   const struct drag_law *drag;
   void                  *drag_params;
   struct shape           region;
-  struct function        velocity[3]; /* m/s at the start */
-  struct function        pressure;    /* Pa (gauge) at the start, where the start is not at rest */
+  struct function        velocity[3];  /* m/s at the start */
+  struct function        pressure;     /* Pa (gauge) at the start, where the start is not at rest */
+  struct function        temperature;  /* K at the start; the number 0: energy is not solved */
+  double                 conductivity; /* W/(m K) */
 };
+
+/** Whether the fluid's energy is solved. */
+static inline bool fluid_has_energy(const struct fluid *f)
+{
+  return f->present && (f->temperature.expression || f->temperature.constant != 0);
+}
 
 /* what a side does to the solid or to the fluid */
 enum side_kind {

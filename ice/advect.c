@@ -1,40 +1,38 @@
 /* The liquid carries its mass and momentum, axis by axis. theory 4.10 */
-#include "ice/ice.h"
+#include "ice/advect.h"
+#include "ice/heat.h"
 
 #include "core/parallel.h"
 
 #include <math.h>
 #include <string.h>
 
-/* a cell filled to more than this share is full: there velocities have slopes */
-static const double full = 0.999;
-/* kg over what a full cell holds: a cell with less has no velocity */
-static const double least_mass = 1e-12;
 /* largest share of a cell that leaves it through a face in one sweep */
 static const double courant = 0.5;
 
-/* van Leer's harmonic mean of two slopes */
-static double limited(double a, double b) { return a * b > 0 ? 2 * a * b / (a + b) : 0; }
-
-/* whether a face lies in the full liquid, where fluxes are of second order */
-static bool is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f)
+bool advect_is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   long low = f - sim->grid.stride[axis];
-  return ice->kind[axis * sim->grid.size + f] == FACE_INNER && ice->alpha_cc[f] > full && ice->alpha_cc[low] > full &&
-         !ice_has_surface(&sim->grid, ice, f) && !ice_has_surface(&sim->grid, ice, low);
+  return ice->kind[axis * sim->grid.size + f] == FACE_INNER && ice->alpha_cc[f] > advect_full &&
+         ice->alpha_cc[low] > advect_full && !ice_has_surface(&sim->grid, ice, f) &&
+         !ice_has_surface(&sim->grid, ice, low);
+}
+
+double advect_courant(const struct grid *g, const struct ice *ice, int axis, long f, long from)
+{
+  double V = grid_cell_volume(g), liquid = ice->liquid_fc[axis * g->size + f] * V;
+  return fabs(liquid) / (ice->porosity_cc[from] * V);
 }
 
 /* Component d of the velocity in the middle of the step that leaves cell `from` through its face: a limited slope, and
  * half of what pressure, weight and viscosity have changed. Bell, Colella and Glaz 1989 */
 static double leaving_velocity(const struct sim *sim, const struct ice *ice, int axis, long from, bool up, int d,
-                               double courant_number)
+                               double number)
 {
   const struct grid *g = &sim->grid;
-  long               before = from - g->stride[axis], after = from + g->stride[axis];
-  double             own = ice->vel_cc[from * g->dim + d];
-  bool               known = ice->alpha_cc[before] > full && ice->alpha_cc[after] > full;
-  double slope = known ? limited(own - ice->vel_cc[before * g->dim + d], ice->vel_cc[after * g->dim + d] - own) : 0;
-  return own + (up ? 0.5 : -0.5) * (1 - courant_number) * slope + 0.5 * ice->vel_start_cc[from * g->dim + d];
+  double             slope = advect_slope(g, ice, axis, from, g->dim, ice->vel_cc + d);
+  return ice->vel_cc[from * g->dim + d] + (up ? 0.5 : -0.5) * (1 - number) * slope +
+         0.5 * ice->vel_start_cc[from * g->dim + d];
 }
 
 /* momentum component d through a face in dt, kg m/s */
@@ -46,13 +44,12 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
   long               from = liquid > 0 ? low : f;
   if (liquid == 0) return 0; /* nobody knows what lies behind a wall */
   if (ice->kind[q] == FACE_INLET) return liquid * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t);
-  if (!is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
-  double number = fabs(liquid) / (ice->porosity_cc[from] * V), coming = 0.5 * dt * V / g->h * ice->trend_fc[q];
+  if (!advect_is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
+  double number = advect_courant(g, ice, axis, f, from), coming = 0.5 * dt * V / g->h * ice->trend_fc[q];
   return (liquid + coming) * ice->rho_cc[from] * leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
 }
 
-/* kg */
-static double carried_mass(const struct ice *ice, const struct grid *g, int axis, long f)
+double advect_mass(const struct ice *ice, const struct grid *g, int axis, long f)
 {
   long q = axis * g->size + f, low = f - g->stride[axis], from = ice->liquid_fc[q] > 0 ? low : f;
   return ice->liquid_fc[q] != 0 ? ice->liquid_fc[q] * grid_cell_volume(g) * ice->rho_cc[from] : 0;
@@ -78,8 +75,8 @@ static void gather_mass(struct sim *sim, struct ice *ice, int axis)
   FOR_BOX(g, cells, c)
   {
     double *m = &ice->mass_cc[c];
-    *m += carried_mass(ice, g, axis, c) - carried_mass(ice, g, axis, c + g->stride[axis]);
-    bool holds = *m > least_mass * ice->rho_cc[c] * ice->pore_cc[c] * V;
+    *m += advect_mass(ice, g, axis, c) - advect_mass(ice, g, axis, c + g->stride[axis]);
+    bool holds = *m > advect_least_mass * ice->rho_cc[c] * ice->pore_cc[c] * V;
     for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] = holds ? ice->momentum_cc[c * g->dim + d] / *m : 0;
   }
   grid_fill_periodic(g, 1, ice->mass_cc);
@@ -95,7 +92,7 @@ static double mass_out(const struct sim *sim, const struct ice *ice, int axis)
     struct box side = grid_cells(g);
     side.lo[axis] = high ? g->n[axis] : 0;
     side.hi[axis] = side.lo[axis] + 1;
-    FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * carried_mass(ice, g, axis, f);
+    FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * advect_mass(ice, g, axis, f);
   }
   return out;
 }
@@ -140,6 +137,7 @@ static void open_rooms(struct sim *sim, struct ice *ice)
       ice->rho_cc[beyond] = ice->rho_cc[inside];
       ice->alpha_cc[beyond] = kind == FACE_INLET || kind == FACE_PRESSURE;
       for (int d = 0; d < g->dim; d++) ice->vel_cc[beyond * g->dim + d] = ice->vel_cc[inside * g->dim + d];
+      if (ice->T_cc) ice_heat_beyond(sim, ice, side, f);
     }
   }
 }
@@ -166,8 +164,10 @@ enum status ice_advect(struct sim *sim, double dt)
       long base = axis * g->size;
       plic_sweep(&ice->plic, axis, dt / parts, ice->carried_fc + base, ice->alpha_cc, ice->liquid_fc + base);
       gather_momentum(sim, ice, axis, dt / parts);
+      if (ice->T_cc) ice_heat_gather(sim, ice, axis);
       ice->now.mass_out += mass_out(sim, ice, axis);
       gather_mass(sim, ice, axis);
+      if (ice->T_cc) ice_heat_settle(sim, ice);
     }
   }
   return OK;

@@ -1,5 +1,5 @@
 /* Where the liquid is at the start, its pressure, and what every face is. theory 4.1 */
-#include "ice/ice.h"
+#include "ice/heat.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -27,10 +27,11 @@ static double filled_share(const struct sim *sim, long cell)
   return (double)inside / all;
 }
 
-static double density_at(const struct sim *sim, double P)
+/* in a cell, with the temperature that it starts with */
+static double density_at(const struct sim *sim, const struct ice *ice, long c, double P)
 {
   double rho;
-  sim->scene->fluid.eos->density(sim->scene->fluid.eos_params, 1, &P, NULL, &rho);
+  sim->scene->fluid.eos->density(sim->scene->fluid.eos_params, 1, &P, ice_temperature(ice, c), &rho);
   return rho;
 }
 
@@ -93,18 +94,18 @@ void ice_classify_faces(struct sim *sim, struct ice *ice)
 
 /* pressure of a cell whose upper neighbour (against gravity) has `above`, with the face density of the scheme: exactly
  * in balance. The density depends on the pressure a little, hence the iteration */
-static double pressure_below(const struct sim *sim, double above, double weight)
+static double pressure_below(const struct sim *sim, const struct ice *ice, long c, long up, double weight)
 {
-  double P = above + weight * density_at(sim, above);
-  for (int i = 0; i < 20; i++) P = above + weight * 0.5 * (density_at(sim, above) + density_at(sim, P));
+  double above = ice->P_cc[up], rho = density_at(sim, ice, up, above), P = above + weight * rho;
+  for (int i = 0; i < 20; i++) P = above + weight * 0.5 * (rho + density_at(sim, ice, c, P));
   return P;
 }
 
 /* first pressure below a surface or a side with a given pressure */
-static double pressure_under(const struct sim *sim, double outside, double weight)
+static double pressure_under(const struct sim *sim, const struct ice *ice, long c, double outside, double weight)
 {
-  double P = outside + weight * density_at(sim, outside);
-  for (int i = 0; i < 20; i++) P = outside + weight * density_at(sim, P);
+  double P = outside + weight * density_at(sim, ice, c, outside);
+  for (int i = 0; i < 20; i++) P = outside + weight * density_at(sim, ice, c, P);
   return P;
 }
 
@@ -125,12 +126,12 @@ static enum status rest_pressure_of(const struct sim *sim, struct ice *ice, long
   long               up = code % 2 ? -grid->stride[axis] : grid->stride[axis], f = code % 2 ? c : c + up;
   enum face_kind     kind = ice->kind[axis * grid->size + f];
   if (kind == FACE_INNER) {
-    ice->P_cc[c] = pressure_below(sim, ice->P_cc[c + up], g * grid->h);
+    ice->P_cc[c] = pressure_below(sim, ice, c, c + up, g * grid->h);
     return OK;
   }
   if (kind == FACE_SURFACE || kind == FACE_PRESSURE) {
     double outside = ice_outside_pressure(sim, ice, axis, f, 0);
-    ice->P_cc[c] = pressure_under(sim, outside, g * grid->h * ice_face_distance(sim, ice, axis, f));
+    ice->P_cc[c] = pressure_under(sim, ice, c, outside, g * grid->h * ice_face_distance(sim, ice, axis, f));
     return OK;
   }
   struct rest rest;
@@ -174,7 +175,7 @@ static void weigh_cells(struct sim *sim, struct ice *ice, bool with_pressure)
   double     V = grid_cell_volume(&sim->grid);
   FOR_BOX_SERIAL(&sim->grid, cells, c)
   if (ice->mass_cc[c] > 0) {
-    double rho = density_at(sim, with_pressure ? ice->P_cc[c] : 0), old = ice->rho_cc[c];
+    double rho = density_at(sim, ice, c, with_pressure ? ice->P_cc[c] : 0), old = ice->rho_cc[c];
     ice->mass_cc[c] *= with_pressure ? rho / old : rho * V * ice->porosity_cc[c];
     ice->rho_cc[c] = rho;
   }
@@ -272,6 +273,7 @@ enum status ice_create(struct sim *sim, void *state)
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
+  if (ice->T_cc) TRY(ice_heat_create(sim, ice));
   fill_cells(sim, ice);
   if (ice->advects) saturate_at_start(sim, ice);
   if (c) mark_extent(sim);

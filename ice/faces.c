@@ -68,7 +68,8 @@ static enum status check_range(const struct sim *sim, const struct ice *ice)
   for (long r = 0; r < box_rows(&cells); r++) {
     long c0 = box_row(&sim->grid, &cells, r), lost = 0;
     for (long c = c0; c < c0 + box_length(&cells); c++)
-      if (ice->wet_cc[c] > 0) lost += eos->outside(sim->scene->fluid.eos_params, 1, &ice->P_cc[c], NULL);
+      if (ice->wet_cc[c] > 0)
+        lost += eos->outside(sim->scene->fluid.eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c));
     if (lost > 0) {
 #pragma omp atomic
       bad += lost;
@@ -93,7 +94,7 @@ enum status ice_update_properties(struct sim *sim, double dt)
   PARALLEL_FOR
   for (long r = 0; r < box_rows(&cells); r++) {
     long c0 = box_row(g, &cells, r);
-    fluid->eos->density(fluid->eos_params, g->n[0], ice->P_cc + c0, NULL, ice->rho_cc + c0);
+    fluid->eos->density(fluid->eos_params, g->n[0], ice->P_cc + c0, ice_temperature(ice, c0), ice->rho_cc + c0);
     for (long c = c0; c < c0 + g->n[0]; c++)
       ice->defect_cc[c] = ice->wet_cc[c] > 0 ? ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * V) - 1 : 0;
   }

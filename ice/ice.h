@@ -40,6 +40,7 @@ struct ice {
   struct ice_numbers {
     double speed;                  /* m/s, fastest fluid of the last step */
     double mass_out;               /* kg through open sides, net, since the start */
+    double heat_out;               /* J that went with it */
     double defect_rms, defect_max; /* of the last step, over the pore volume */
   } now;
 };
@@ -47,6 +48,12 @@ struct ice {
 extern const struct module module_ice;
 
 static inline struct ice *ice_of(const struct sim *sim) { return sim_state(sim, &module_ice); }
+
+/** Temperatures of the cells from `cell` on as an equation of state wants them; NULL: energy is not solved. */
+static inline const double *ice_temperature(const struct ice *ice, long cell)
+{
+  return ice->T_cc ? ice->T_cc + cell : NULL;
+}
 
 /** Whether fluid at a face answers to a pressure gradient. */
 static inline bool ice_face_active(enum face_kind kind)

@@ -1,6 +1,6 @@
 /* Fluid path: one liquid in cells with an implicit pressure. Its stages, when each is needed, its fields. Read this
  * first. */
-#include "ice/ice.h"
+#include "ice/heat.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -9,12 +9,15 @@
 
 #include <math.h>
 
+static bool warm(const struct scene *sc) { return fluid_has_energy(&sc->fluid); }
 static bool skeleton(const struct scene *sc) { return sc->n_solids > 0; }
 static bool advects(const struct scene *sc)
 {
   const struct ice_params *params = scene_module_params(sc, &module_ice);
   return params->advection;
 }
+static bool carries_cold(const struct scene *sc) { return advects(sc) && !warm(sc); }
+static bool carries_warm(const struct scene *sc) { return advects(sc) && warm(sc); }
 static bool viscous(const struct scene *sc) { return advects(sc) && sc->fluid.viscosity > 0; }
 static bool rests(const struct scene *sc) { return !advects(sc); }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
@@ -26,8 +29,8 @@ static const struct field fields[] = {
 };
 
 static const struct stage stages[] = {
-    {"ice.update_properties", SLOT_volume_fractions, "P_cc mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1", "always",
-     NULL, ice_update_properties, NULL},
+    {"ice.update_properties", SLOT_volume_fractions, "P_cc T_cc? mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1",
+     "always", NULL, ice_update_properties, NULL},
     {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
      "only with numerics.ice.advection", advects, ice_find_surface, NULL},
     {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "momentum_cc vel_cc", "4.11",
@@ -55,8 +58,11 @@ static const struct stage stages[] = {
     {"ice.accelerate_cells", SLOT_cells, "u_fc u_old_fc mass_cc vel_cc", "vel_cc beyond_fc", "4.10",
      "only with numerics.ice.advection", advects, ice_accelerate_cells, NULL},
     {"ice.advect", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc",
-     "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc", "4.10", "only with numerics.ice.advection", advects,
-     ice_advect, NULL},
+     "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc", "4.10", "only with numerics.ice.advection, no energy",
+     carries_cold, ice_advect, NULL},
+    {"ice.advect_with_heat", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc T_cc",
+     "pore_cc liquid_fc momentum_cc warmth_cc alpha_cc mass_cc vel_cc T_cc", "4.12",
+     "only with numerics.ice.advection and energy", carries_warm, ice_advect, NULL},
     {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
      "only when a solid moves", moving, ice_push_solid, NULL},
 };
@@ -94,7 +100,7 @@ static void measure(const struct sim *sim, struct ledger *l)
     double x[3], m = ice->mass_cc[c], kappa;
     if (!(m > 0)) continue;
     grid_centre(g, c, x);
-    fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], NULL, &kappa);
+    fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
     l->v[LEDGER_mass_fluid] += m;
     l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * V;
     for (int d = 0; d < g->dim; d++) {
@@ -105,6 +111,7 @@ static void measure(const struct sim *sim, struct ledger *l)
     }
   }
   l->v[LEDGER_mass_fluid_out] += ice->now.mass_out;
+  if (ice->T_cc) ice_heat_measure(sim, l);
   l->v[LEDGER_volume_defect_rms] = ice->now.defect_rms;
   l->v[LEDGER_volume_defect_max] = ice->now.defect_max;
 }

@@ -1,4 +1,5 @@
 /* Heat in a scene: what a side does to it, and whether the scene can solve it. */
+#include "ice/ice.h"
 #include "run/scene_check.h"
 #include "run/scene_tables.h"
 
@@ -86,9 +87,10 @@ static enum status check_sides(struct reader *reader, const struct scene *scene)
     int kind = scene->solid_side[side].kind;
     snprintf(reader->path, sizeof reader->path, "boundary.heat.%s", side_names[side]);
     if (scene->heat_side[side].kind == HEAT_INSULATED) continue;
+    if (fluid_has_energy(&scene->fluid)) continue;
     if (!conducts(scene))
-      return reader_fail(reader, "no material of a solid conducts heat; give \"conductivity\" and \"heat_capacity\" or "
-                                 "remove it");
+      return reader_fail(reader, "no material of a solid conducts heat, and the fluid's energy is not solved; give "
+                                 "\"conductivity\" and \"heat_capacity\", or fluid.temperature, or remove it");
     if (kind == SIDE_OPEN || kind == SIDE_PERIODIC)
       return reader_fail(reader, "this side is %s for solids, which never reach it; write \"insulated\"",
                          kind == SIDE_OPEN ? "open" : "periodic");
@@ -96,8 +98,26 @@ static enum status check_sides(struct reader *reader, const struct scene *scene)
   return OK;
 }
 
+static enum status check_fluid(struct reader *reader, const struct scene *scene)
+{
+  const struct fluid *fluid = &scene->fluid;
+  snprintf(reader->path, sizeof reader->path, "fluid.conductivity");
+  if (!fluid_has_energy(fluid))
+    return fluid->present && fluid->conductivity > 0
+               ? reader_fail(reader, "a fluid that conducts heat needs a temperature; give fluid.temperature in K")
+               : OK;
+  snprintf(reader->path, sizeof reader->path, "fluid.temperature");
+  if (fluid->path != &module_ice)
+    return reader_fail(reader, "the path %s does not solve the fluid's energy; take fluid.path ice or remove it",
+                       fluid->path ? fluid->path->name : "null");
+  const struct ice_params *params = scene_module_params(scene, &module_ice);
+  if (params->advection) return OK;
+  return reader_fail(reader, "heat goes with the flow, which is not followed; set numerics.ice.advection true");
+}
+
 enum status scene_check_heat(struct reader *reader, const struct scene *scene)
 {
   TRY(check_capacities(reader, scene));
+  TRY(check_fluid(reader, scene));
   return check_sides(reader, scene);
 }

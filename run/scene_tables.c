@@ -141,6 +141,10 @@ static const struct param fluid_params[] = {
     {"velocity", PARAM_FUNCTION3, AT(fluid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
     {"pressure", PARAM_FUNCTION, AT(fluid, pressure), "Pa", 0, 0, ZERO_DEFAULT, NULL,
      "gauge pressure at the start, where the start is \"zero\""},
+    {"temperature", PARAM_FUNCTION, AT(fluid, temperature), "K", 0, 0, ZERO_DEFAULT, NULL,
+     "at the start; where it is given, the fluid's energy is solved"},
+    {"conductivity", PARAM_NUMBER, AT(fluid, conductivity), "W/(m K)", 0, 1e9, "0", NULL,
+     "of heat, where the fluid's energy is solved"},
     PARAM_END};
 static const struct entry fluid_entries[] = {
     VALUE("path", fluid_path, fluid, path, "null", "-", "fluid path: the method that moves the fluid"),
