@@ -1,5 +1,6 @@
 /* Where the liquid is at the start, its pressure, and what every face is. theory 4.1 */
 #include "ice/heat.h"
+#include "ice/shock.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -80,7 +81,10 @@ void ice_classify_faces(struct sim *sim, struct ice *ice)
   ice->surface = false;
   for (int axis = 0; axis < g->dim; axis++) {
     struct box faces = grid_faces(g, axis);
-    for (int d = 0; d < g->dim; d++) faces.lo[d] -= g->periodic[d]; /* the nodes of a seam look there too */
+    for (int d = 0; d < g->dim; d++) { /* the nodes of a seam, and slopes across it, look there too */
+      faces.lo[d] -= g->periodic[d];
+      faces.hi[d] += g->periodic[d];
+    }
     FOR_BOX_SERIAL(g, faces, f)
     {
       enum face_kind kind = classify(sim, ice, axis, f);
@@ -264,7 +268,7 @@ enum status ice_create(struct sim *sim, void *state)
   struct coupling *c = coupling_of(sim);
   long             faces = sim->grid.size * sim->grid.dim;
   ice->params = scene_module_params(sim->scene, &module_ice);
-  ice->advects = ice->params->advection;
+  ice->advects = ice->params->advection && !ice->params->shocks;
   ice->skeleton = c != NULL;
   ice->moves = c && mpm_solid_moves(sim->scene);
   TRY(NEW(&ice->kind, faces));
@@ -284,6 +288,7 @@ enum status ice_create(struct sim *sim, void *state)
   TRY(rest_pressures(sim, ice));
   weigh_cells(sim, ice, true);
   start_fluxes(sim, ice);
+  if (ice->params->shocks) TRY(shock_create(sim, ice));
   static const enum linear_method method[] = {
       [SOLVER_AUTO] = LINEAR_AUTO, [SOLVER_HYPRE] = LINEAR_HYPRE, [SOLVER_DIRECT] = LINEAR_DIRECT};
   return linear_create(&sim->grid, method[sim->scene->numerics.pressure_solver], &ice->linear);

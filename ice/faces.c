@@ -275,7 +275,7 @@ double ice_dt_limit(const struct sim *sim)
   double gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
-  if (ice->advects) limit = fmin(limit, sqrt(0.5 * h / fastest_change(sim, ice)));
+  if (ice->advects || ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / fastest_change(sim, ice)));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
 }
 

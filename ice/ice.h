@@ -18,6 +18,8 @@ enum face_kind {
 
 struct ice_params {
   bool   advection;        /* the liquid carries its momentum, and its surface goes where it flows */
+  bool   shocks;           /* a fluid at any speed, that fills the grid */
+  double acoustic_courant; /* cells that a wave may go per step; 0: the step does not know of sound */
   double memory;           /* share of what a face had beyond the mean of its cells that it keeps */
   double defect_share;     /* share of the volume defect that is made good per step */
   double defect_tolerance; /* volume that the defect's solve may leave, over a cell's */
@@ -34,12 +36,13 @@ struct ice {
   double                  *one; /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
   bool                     skeleton, moves; /* there is a skeleton; it moves */
-  bool                     advects;         /* params->advection */
+  bool                     advects;         /* params->advection, in scenes without params->shocks */
   bool                     surface;         /* some face is FACE_SURFACE */
   bool                     singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
     double speed;                  /* m/s, fastest fluid of the last step */
     double mass_out;               /* kg through open sides, net, since the start */
+    double squeeze;                /* 1/s, fastest change of volume of the last step; with params->shocks */
     double heat_out;               /* J that went with it */
     double defect_rms, defect_max; /* of the last step, over the pore volume */
   } now;

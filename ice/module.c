@@ -1,6 +1,7 @@
 /* Fluid path: one liquid in cells with an implicit pressure. Its stages, when each is needed, its fields. Read this
  * first. */
 #include "ice/heat.h"
+#include "ice/shock.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -14,12 +15,21 @@ static bool skeleton(const struct scene *sc) { return sc->n_solids > 0; }
 static bool advects(const struct scene *sc)
 {
   const struct ice_params *params = scene_module_params(sc, &module_ice);
-  return params->advection;
+  return params->advection && !params->shocks;
 }
+static bool shocks(const struct scene *sc)
+{
+  const struct ice_params *params = scene_module_params(sc, &module_ice);
+  return params->shocks;
+}
+static bool calm(const struct scene *sc) { return !shocks(sc); }
+static bool cold_shocks(const struct scene *sc) { return shocks(sc) && !warm(sc); }
+static bool warm_shocks(const struct scene *sc) { return shocks(sc) && warm(sc); }
 static bool carries_cold(const struct scene *sc) { return advects(sc) && !warm(sc); }
 static bool carries_warm(const struct scene *sc) { return advects(sc) && warm(sc); }
 static bool viscous(const struct scene *sc) { return advects(sc) && sc->fluid.viscosity > 0; }
-static bool rests(const struct scene *sc) { return !advects(sc); }
+static bool no_trend(const struct scene *sc) { return !advects(sc); }
+static bool rests(const struct scene *sc) { return !advects(sc) && !shocks(sc); }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
 
 static const struct field fields[] = {
@@ -33,12 +43,17 @@ static const struct stage stages[] = {
      "always", NULL, ice_update_properties, NULL},
     {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
      "only with numerics.ice.advection", advects, ice_find_surface, NULL},
+    {"ice.find_sound", SLOT_volume_fractions, "P_cc T_cc?", "sound_cc", "4.13", "only with numerics.ice.shocks", shocks,
+     ice_find_sound, NULL},
     {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "momentum_cc vel_cc", "4.11",
      "only with numerics.ice.advection and a viscosity", viscous, ice_diffuse_momentum, ice_viscous_dt},
     {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2",
-     "always", NULL, ice_predict_faces, ice_dt_limit},
+     "only without numerics.ice.shocks", calm, ice_predict_faces, ice_dt_limit},
     {"ice.predict_solid", SLOT_predict, "mass_nc force_nc vel_nc solid_nc room_nc gradP_fc", "vel_star_nc s_old_fc",
      "4.2", "only when a solid moves", moving, ice_predict_solid, NULL},
+    {"ice.predict_shock", SLOT_predict, "P_cc vel_cc rho_cc sound_cc",
+     "gradP_fc u_old_fc s_old_fc flux_fc water_fc press_fc", "4.13", "only with numerics.ice.shocks", shocks,
+     ice_predict_shock, ice_shock_dt},
     {"ice.resist_faces", SLOT_drag, "u_old_fc s_old_fc porosity_fc fill_fc medium_porosity_fc", "drag_fc", "2.2",
      "only when there is a skeleton", skeleton, ice_resist_faces, NULL},
     {"ice.eliminate_drag", SLOT_eliminate, "u_old_fc s_old_fc gradP_fc rho_cc", "u_fc s_fc u_reply_fc s_reply_fc",
@@ -46,7 +61,7 @@ static const struct stage stages[] = {
     {"ice.solve_pressure", SLOT_pressure, "u_fc s_fc u_reply_fc s_reply_fc flux_fc defect_cc",
      "coupling_fc diagonal_cc rhs_cc dP_cc flux_fc", "4.4", "always", NULL, ice_solve_pressure, NULL},
     {"ice.correct_faces", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
-     "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4", "only without numerics.ice.advection", rests,
+     "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4", "only without numerics.ice.advection", no_trend,
      ice_correct_faces, NULL},
     {"ice.correct_faces_and_trend", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
      "u_fc s_fc flux_fc water_fc trend_fc carried_fc P_cc", "4.10", "only with numerics.ice.advection", advects,
@@ -63,6 +78,17 @@ static const struct stage stages[] = {
     {"ice.advect_with_heat", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc T_cc",
      "pore_cc liquid_fc momentum_cc warmth_cc alpha_cc mass_cc vel_cc T_cc", "4.12",
      "only with numerics.ice.advection and energy", carries_warm, ice_advect, NULL},
+    {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc", "press_fc vel_cc", "4.13",
+     "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
+    {"ice.push_shock_with_energy", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc T_cc",
+     "press_fc vel_cc energy_cc", "4.13", "only with numerics.ice.shocks and energy", warm_shocks, ice_push_shock,
+     NULL},
+    {"ice.carry_shock", SLOT_cells, "carried_fc rho_cc mass_cc vel_cc",
+     "room_cc dense_cc flat_cc mass_fc momentum_fc mass_cc vel_cc rho_cc P_cc", "4.13",
+     "only with numerics.ice.shocks, no energy", cold_shocks, ice_carry_shock, NULL},
+    {"ice.carry_shock_with_energy", SLOT_cells, "carried_fc rho_cc mass_cc vel_cc energy_cc T_cc",
+     "room_cc dense_cc inner_cc flat_cc mass_fc momentum_fc energy_fc mass_cc vel_cc rho_cc T_cc P_cc", "4.13",
+     "only with numerics.ice.shocks and energy", warm_shocks, ice_carry_shock, NULL},
     {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
      "only when a solid moves", moving, ice_push_solid, NULL},
 };
@@ -70,6 +96,10 @@ static const struct stage stages[] = {
 static const struct param params[] = {
     {"advection", PARAM_FLAG, offsetof(struct ice_params, advection), "-", 0, 0, "false", NULL,
      "the liquid carries its momentum, and its surface goes where it flows; without, a surface stays in its cell"},
+    {"shocks", PARAM_FLAG, offsetof(struct ice_params, shocks), "-", 0, 0, "false", NULL,
+     "a fluid at any speed, to shocks, that fills the grid: total energy is conserved where energy is solved"},
+    {"acoustic_courant", PARAM_NUMBER, offsetof(struct ice_params, acoustic_courant), "-", 0, 1e6, "0", NULL,
+     "with shocks: cells that a wave may go per step; 0: the step does not know of sound"},
     {"memory", PARAM_NUMBER, offsetof(struct ice_params, memory), "-", 0, 1, "0.99", NULL,
      "share of what a face velocity had beyond the mean of its cells that is kept for the next step"},
     {"defect_share", PARAM_NUMBER, offsetof(struct ice_params, defect_share), "-", 0, 1, "1", NULL,
@@ -102,7 +132,8 @@ static void measure(const struct sim *sim, struct ledger *l)
     grid_centre(g, c, x);
     fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
     l->v[LEDGER_mass_fluid] += m;
-    l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * V;
+    if (!ice->params->shocks)
+      l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * V;
     for (int d = 0; d < g->dim; d++) {
       double v = ice->vel_cc[c * g->dim + d];
       l->v[LEDGER_momentum_x + d] += m * v;
@@ -110,6 +141,7 @@ static void measure(const struct sim *sim, struct ledger *l)
       l->v[LEDGER_potential] -= m * gravity[d] * x[d];
     }
   }
+  if (ice->params->shocks) shock_measure(sim, l);
   l->v[LEDGER_mass_fluid_out] += ice->now.mass_out;
   if (ice->T_cc) ice_heat_measure(sim, l);
   l->v[LEDGER_volume_defect_rms] = ice->now.defect_rms;

@@ -76,7 +76,10 @@ static void cell_entries(struct sim *sim, struct ice *ice, double dt)
     ice->diagonal_cc[c] = 1;
     if (!(ice->wet_cc[c] > 0)) continue;
     double kappa, in = 0, sum = 0;
-    fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
+    if (ice->sound_cc)
+      kappa = 1 / (ice->rho_cc[c] * ice->sound_cc[c] * ice->sound_cc[c]);
+    else
+      fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
     for (int d = 0; d < g->dim; d++) {
       long low = d * g->size + c, high = low + g->stride[d];
       in += area * (ice->flux_fc[low] - ice->flux_fc[high]);

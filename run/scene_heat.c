@@ -111,7 +111,7 @@ static enum status check_fluid(struct reader *reader, const struct scene *scene)
     return reader_fail(reader, "the path %s does not solve the fluid's energy; take fluid.path ice or remove it",
                        fluid->path ? fluid->path->name : "null");
   const struct ice_params *params = scene_module_params(scene, &module_ice);
-  if (params->advection) return OK;
+  if (params->advection || params->shocks) return OK;
   return reader_fail(reader, "heat goes with the flow, which is not followed; set numerics.ice.advection true");
 }
 
