@@ -15,7 +15,7 @@ struct tally {
   double                        x[BATCH][3], value[BATCH], expected[BATCH];
   long                          where[BATCH];
   long                          count;
-  double                        sum, squares, largest, sum_expected;
+  double                        sum, sizes, squares, largest, sum_expected;
   double                       *difference; /* NULL: not kept */
 };
 
@@ -25,6 +25,7 @@ static enum status empty_batch(struct tally *a)
   for (int i = 0; i < a->n; i++) {
     double d = a->value[i] - a->expected[i];
     a->sum += d;
+    a->sizes += fabs(d);
     a->squares += d * d;
     if (!(fabs(d) <= a->largest)) a->largest = fabs(d);
     a->sum_expected += a->expected[i];
@@ -105,6 +106,8 @@ static double measure(const struct tally *a, const struct sim *sim)
     return sqrt(a->squares / n);
   case MEASURE_MAX:
     return a->largest;
+  case MEASURE_L1:
+    return a->sizes / n;
   case MEASURE_ROUGHNESS:
     return roughness(&sim->grid, a->difference);
   default:

@@ -178,6 +178,9 @@ START_TEST(roughness)
   ck_assert_double_eq_tol(evaluate_field(&r, &m), 2, 1e-11);
   m.scale = 100;
   ck_assert_double_eq_tol(evaluate_field(&r, &m), 0.02, 1e-12);
+  m = metric_of("m", MEASURE_L1, "P", "");
+  expect(&m, "100 + 10*x - 30*y"); /* the mean size of the checkerboard itself */
+  ck_assert_double_eq_tol(evaluate_field(&r, &m), 0.25, 1e-11);
   fake_destroy(&r);
 }
 END_TEST
