@@ -149,10 +149,10 @@ static void gather(struct sim *sim, struct ice *ice, int axis, double dt, double
   {
     if (!(ice->wet_cc[c] > 0)) continue;
     long   low = axis * g->size + c, high = low + g->stride[axis], f = c + g->stride[axis];
-    double m = ice->mass_cc[c], more = m + (ice->mass_fc[low] - ice->mass_fc[high]);
+    double come = ice->mass_fc[low] - ice->mass_fc[high], more = ice->mass_cc[c] + come;
     for (int d = 0; d < dim; d++) {
       double *v = &ice->vel_cc[c * dim + d];
-      *v = (m * *v + (ice->momentum_fc[low * dim + d] - ice->momentum_fc[high * dim + d])) / more;
+      *v += (ice->momentum_fc[low * dim + d] - ice->momentum_fc[high * dim + d] - come * *v) / more;
     }
     ice->mass_cc[c] = more;
     ice->room_cc[c] -= dt / g->h * (ice->carried_fc[high] - ice->carried_fc[low]);
