@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The standard pictures of every run at or below a folder: gauges.png, fields.png, and isochrones.png for consolidations.
+"""The standard pictures of every run at or below a folder: gauges.png, fields.png, and isochrones.png for consolidations;
+of the folder of a study study.png, of a stability map stress.png.
 
 usage: plot.py FOLDER
 Exit status: 0 done, 2 no run there.
@@ -17,6 +18,7 @@ import numpy as np
 
 import isochrones
 import snapshots
+import studies
 
 SETS = ("cells", "solid", "water")
 MOST_FIELDS = 4  # panels per set
@@ -125,6 +127,11 @@ def save(figure, run, name):
 
 
 def main(folder):
+    for name, draw in (("study", studies.draw_study), ("stress", studies.draw_stress)):
+        if os.path.exists(os.path.join(folder, name + ".json")):
+            for i, figure in enumerate(draw(folder)):
+                save(figure, folder, f"{name}{i + 1 if i else ''}.png")
+            return 0
     runs = snapshots.runs(folder)
     if not runs:
         print(f"plot.py: {folder}: no run here, for there is no summary.json", file=sys.stderr)

@@ -8,13 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum option { FLUID, SET, OUT, THREADS, UNTIL, QUICK, TIME, QUIET, FORCE, MARKDOWN, HELP, N_OPTIONS };
+enum option { FLUID, SET, REFINE, SWEEP, OUT, THREADS, UNTIL, QUICK, TIME, QUIET, FORCE, MARKDOWN, HELP, N_OPTIONS };
 
 static const struct {
   const char *name, *value, *meaning;
 } table[N_OPTIONS] = {
-    [FLUID] = {"--fluid", "PATH", "fluid path, such as ice or twopoint; compare takes several, A,B,..."},
+    [FLUID] = {"--fluid", "PATH", "fluid path, such as ice or twopoint; compare, study, stress take several, A,B,..."},
     [SET] = {"--set", "KEY.PATH=VALUE", "overrides one value of the scene; may be given again"},
+    [REFINE] = {"--refine", "KEY=V,V,...", "values that one parameter takes, such as h=0.04,0.02; may be given again"},
+    [SWEEP] = {"--sweep", "KEY=V,V,...", "an axis of the map, such as dt=0.4,0.8; may be given again"},
     [OUT] = {"--out", "DIR", "output folder; default out/<scene>-<path>"},
     [THREADS] = {"--threads", "N", "number of threads; default as many as the scene keeps busy"},
     [UNTIL] = {"--until", "T", "ends at T seconds instead of at time.end"},
@@ -70,6 +72,14 @@ static enum status read_threads(const char *word, int *threads)
   return number == *threads ? OK : FAIL(ERR_INPUT, "--threads: \"%s\" is not a whole number; round it", word);
 }
 
+static enum status store_word(int option, const char *value, int *n, const char *words[], int most)
+{
+  if (*n == most)
+    return FAIL(ERR_INPUT, "%s: more than %d; put overrides into a variant of the scene", table[option].name, most);
+  words[(*n)++] = value;
+  return OK;
+}
+
 static enum status store_value(int option, const char *value, struct run_options *o)
 {
   switch (option) {
@@ -86,10 +96,8 @@ static enum status store_value(int option, const char *value, struct run_options
   default:
     break;
   }
-  if (o->n_sets == MAX_SETS)
-    return FAIL(ERR_INPUT, "--set: more than %d; put them into a variant of the scene", MAX_SETS);
-  o->sets[o->n_sets++] = value;
-  return OK;
+  return option == SET ? store_word(option, value, &o->n_sets, o->sets, MAX_SETS)
+                       : store_word(option, value, &o->n_ladders, o->ladders, MAX_LADDERS);
 }
 
 static void store_flag(int option, struct run_options *o, bool *help)

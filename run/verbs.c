@@ -24,6 +24,22 @@ const struct verb verbs[] = {
      "Without --fluid A,B,... on every path. The folder (default out/<scene>-compare) holds a run per path and "
      "compare.json.\n",
      verb_compare},
+    {"study", "SCENE", "--refine --fluid --set --out --threads --until --quick --quiet --force",
+     "runs a scene over ladders of a parameter: error against run time",
+     "--refine h=0.04,0.02,0.01 or any key of the scene; h, dt, ppc, basis, transfer, K, mu are short for the usual "
+     "ones.\n"
+     "Prints every metric with its fitted order. The folder (default out/<scene>-study) holds the runs and "
+     "study.json;\n"
+     "mpmice plot makes the picture.\n",
+     verb_study},
+    {"stress", "SCENE", "--sweep --fluid --set --out --threads --until --quick --force",
+     "maps where a scene stays stable",
+     "Runs the product of all --sweep KEY=V,V,... (default: time step factor times stiffness of the fluid). Stable: "
+     "finite to\n"
+     "the end, masses kept, no energy gained, volume defect bounded. The folder (default out/<scene>-stress) holds "
+     "the\n"
+     "runs and stress.json; mpmice plot makes the picture.\n",
+     verb_stress},
     {"info", "FILE", NULL, "prints what is in a file of an output folder",
      "Snapshots and checkpoints: arrays, sizes, units. gauges.csv: columns and their ranges. .json: the tree.\n",
      verb_info},

@@ -11,6 +11,10 @@ enum status verb_check(const struct run_options *options) MUST_CHECK;
 enum status verb_explain(const struct run_options *options) MUST_CHECK;
 /** The scene on several fluid paths: a table, and compare.json. */
 enum status verb_compare(const struct run_options *options) MUST_CHECK;
+/** Error against run time over ladders of parameters: tables, and study.json. */
+enum status verb_study(const struct run_options *options) MUST_CHECK;
+/** Where a scene stays stable over a product of parameters: maps, and stress.json. */
+enum status verb_stress(const struct run_options *options) MUST_CHECK;
 /** What is in a file of an output folder. */
 enum status verb_info(const struct run_options *options) MUST_CHECK;
 /** The standard pictures of the runs at or below a folder. */

@@ -1,0 +1,37 @@
+# `mpmice study` and `mpmice stress`: orders, maps, pictures, and what they refuse. cmake -D PROGRAM= -D OUT= -P study.cmake
+function(must expected pattern)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE error)
+  if(NOT result EQUAL expected OR NOT "${said}${error}" MATCHES "${pattern}")
+    message(FATAL_ERROR "${ARGN}: exit status ${result} instead of ${expected}, or no \"${pattern}\" in\n${said}${error}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${OUT})
+must(0 "u_end_rms +[0-9.e-]+ +[0-9.e-]+ +[0-9.]+" study bar_vibration --quick --quiet --threads 1 --refine h=0.04,0.02 --out ${OUT}/study)
+file(READ ${OUT}/study/study.json json)
+string(JSON order GET "${json}" ladders 0 paths solid orders frequency) # second order in h
+string(JSON runs LENGTH "${json}" ladders 0 paths solid runs)
+if(order LESS 1.8 OR order GREATER 2.3 OR NOT runs EQUAL 2)
+  message(FATAL_ERROR "order ${order} from ${runs} runs")
+endif()
+must(0 "study.png" plot ${OUT}/study)
+must(2 "--refine is missing" study bar_vibration --out ${OUT}/none)
+must(2 "is not KEY=VALUE" study bar_vibration --refine h --out ${OUT}/none)
+must(2 "empty or very long" study bar_vibration --refine h=0.04,,0.02 --out ${OUT}/none)
+must(2 "unknown" study bar_vibration --refine grid.hh=0.04 --out ${OUT}/none)
+
+# beyond the skeleton's limit the step cannot hold
+must(0 "dt_factor=0.8 +\\+ \\+" stress terzaghi_column --quick --until 0.01 --fluid ice --threads 1 --sweep dt=0.8,2 --sweep K=1e7,2.2e9
+     --out ${OUT}/stress)
+file(READ ${OUT}/stress/stress.json json)
+foreach(run RANGE 3)
+  string(JSON stable GET "${json}" paths ice runs ${run} stable)
+  string(JSON why GET "${json}" paths ice runs ${run} why)
+  if((run LESS 2 AND NOT stable) OR (run GREATER 1 AND (stable OR why STREQUAL "")))
+    message(FATAL_ERROR "run ${run}: stable ${stable}, why \"${why}\"")
+  endif()
+endforeach()
+must(0 "stress.png" plot ${OUT}/stress)
+if(EXISTS ${OUT}/none)
+  message(FATAL_ERROR "refused, and yet wrote ${OUT}/none")
+endif()
