@@ -26,9 +26,9 @@ PANEL = 170  # points: about the side of a map
 SKIPPED = {"group", "mass", "volume", "mass_fluid", "density", "defect", "wet"}  # of little interest to the eye
 
 
-def columns(run):
-    """{"t [s]": values, "name [unit]": values, ...} of gauges.csv"""
-    with open(os.path.join(run, "gauges.csv")) as file:
+def columns(run, name="gauges.csv"):
+    """{"t [s]": values, "name [unit]": values, ...} of gauges.csv or references.csv"""
+    with open(os.path.join(run, name)) as file:
         rows = list(csv.reader(file))
     values = np.array(rows[1:], dtype=float).reshape(len(rows) - 1, len(rows[0]))
     return dict(zip(rows[0], values.T))

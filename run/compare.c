@@ -1,4 +1,5 @@
 /* `mpmice compare`: one scene on several fluid paths, side by side. */
+#include "run/scripts.h"
 #include "run/several.h"
 #include "run/verbs.h"
 
@@ -97,6 +98,8 @@ static enum status run_all(const struct run_options *options, struct comparison 
   }
   print_table(c);
   TRY(write_comparison(c));
+  /* a machine without matplotlib has its numbers all the same */
+  if (script_run("report.py", c->of.folder) != OK) fprintf(stderr, "mpmice: no report.html: %s\n", status_message());
   if (worst == ERR_METRIC) return FAIL(ERR_METRIC, "a metric missed its limit; see the table above");
   return worst == OK ? OK : FAIL(worst, "a path failed; see above and %s", c->of.folder);
 }

@@ -396,6 +396,7 @@ static enum status write_summary(struct run *r, const char *status, double t_rea
   record.left_out = left_out;
   record.n_left_out = r->plan.n_left_out;
   TRY(metrics_finish(r->metrics, r->gauges, r->loaded, t_reached, &record.n_metrics, &record.metrics));
+  TRY(metrics_write_references(r->metrics, r->gauges, r->folder));
   for (int i = 0; i < record.n_metrics; i++)
     *missed = *missed || (record.metrics[i].has_limit && !record.metrics[i].pass);
   if (!r->options->quiet) summary_print(&record);
@@ -451,8 +452,8 @@ static enum status run_to_end(struct run *r)
 /* what an earlier run left in the folder must not be mistaken for this one's */
 static void remove_old(const struct run *r)
 {
-  static const char *const old[] = {"fields.*.hdf", "fields.*.hdf.series", "gauges.csv", "summary.json",
-                                    "checkpoint.h5"};
+  static const char *const old[] = {"fields.*.hdf",   "fields.*.hdf.series", "gauges.csv",
+                                    "references.csv", "summary.json",        "checkpoint.h5"};
   for (size_t i = 0; i < sizeof old / sizeof *old; i++) files_remove(r->folder, old[i]);
 }
 

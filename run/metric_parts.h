@@ -5,6 +5,8 @@
 #include "core/sim.h"
 #include "run/fields.h"
 
+struct gauges;
+
 /* Values that a metric is compared with: a quantity of a reference, or an expression. */
 struct expectancy {
   const struct reference *reference; /* NULL: the expression */
@@ -48,5 +50,9 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
 /** m: where the quantity of a gauge is meant: the point, the sample of a line, the tracer at the start, the middle of a
  *  load's patch. */
 void metric_place_gauge(const struct scene *scene, const char *name, double x[3]);
+/** Writes folder/references.csv: at sampling times, what the reference says of each gauge that a metric compares with
+ * one; nothing where there is none. */
+enum status metric_curves_write(int n, const struct compiled_metric *all, const struct gauges *gauges,
+                                const char *folder) MUST_CHECK;
 
 #endif

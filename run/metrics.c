@@ -267,3 +267,8 @@ enum status metrics_finish(struct metrics *metrics, const struct gauges *gauges,
   *entries = metrics->entries;
   return OK;
 }
+
+enum status metrics_write_references(const struct metrics *metrics, const struct gauges *gauges, const char *folder)
+{
+  return metric_curves_write(metrics->n, metrics->m, gauges, folder);
+}

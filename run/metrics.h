@@ -25,5 +25,8 @@ double *metrics_values(struct metrics *metrics, int *n);
  * default over what was expected. A limit holds for the magnitude. */
 enum status metrics_finish(struct metrics *metrics, const struct gauges *gauges, const struct loaded_scene *loaded,
                            double t_end, int *n, const struct metric_entry **entries) MUST_CHECK;
+/** Writes what the references say of the gauges, folder/references.csv: theory beside gauges.csv. */
+enum status metrics_write_references(const struct metrics *metrics, const struct gauges *gauges,
+                                     const char *folder) MUST_CHECK;
 
 #endif

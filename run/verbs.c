@@ -21,8 +21,8 @@ const struct verb verbs[] = {
      "The result is bitwise that of the uninterrupted run.\n", run_resume},
     {"compare", "SCENE", "--fluid --set --out --threads --until --quick --quiet --force",
      "runs a scene on several fluid paths and compares them",
-     "Without --fluid A,B,... on every path. The folder (default out/<scene>-compare) holds a run per path and "
-     "compare.json.\n",
+     "Without --fluid A,B,... on every path. The folder (default out/<scene>-compare) holds a run per path, "
+     "compare.json, and report.html: errors, costs, gauges and fields of all paths side by side.\n",
      verb_compare},
     {"study", "SCENE", "--refine --fluid --set --out --threads --until --quick --quiet --force",
      "runs a scene over ladders of a parameter: error against run time",

@@ -1,4 +1,4 @@
-# `mpmice compare` on every path: its table, compare.json, and what it refuses. cmake -D PROGRAM= -D OUT= -P compare.cmake
+# `mpmice compare` on every path: its table, compare.json, and what it refuses. cmake -D PROGRAM= -D OUT= -D TESTS=<this folder> -P compare.cmake
 function(compare expected pattern)
   execute_process(COMMAND ${PROGRAM} compare ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE error)
   if(NOT result EQUAL expected OR NOT "${said}${error}" MATCHES "${pattern}")
@@ -17,6 +17,10 @@ foreach(path ice twopoint)
     message(FATAL_ERROR "${path}: steps ${steps}, pass ${pass}, ratio ${ratio}")
   endif()
 endforeach()
+execute_process(COMMAND /usr/bin/python3 ${TESTS}/open_in_browser.py ${OUT} 3 RESULT_VARIABLE result ERROR_VARIABLE error)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "report.html in the browser: ${error}")
+endif()
 compare(2 "holds a run already" terzaghi_column --quick --threads 1 --out ${OUT})
 compare(2 "no fluid path" terzaghi_column --fluid ice,nothing --out ${OUT})
 compare(2 "no fluid" bar_vibration --out ${OUT})
