@@ -47,6 +47,10 @@ double metric_interpolate(long n, const double *t, const double *v, double at);
 /** Result of a gauge metric from the samples v [n] at t [n] s, before scaling. */
 enum status metric_of_series(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
                              double *expected) MUST_CHECK;
+/** The highest place of a series that rings: of the cubic through its samples by least squares. ERR_INPUT: it has none
+ * inside. */
+enum status metric_of_peak(const struct compiled_metric *m, long n, const double *t, const double *v, double *at,
+                           double *value) MUST_CHECK;
 /** m: where the quantity of a gauge is meant: the point, the sample of a line, the tracer at the start, the middle of a
  *  load's patch. */
 void metric_place_gauge(const struct scene *scene, const char *name, double x[3]);

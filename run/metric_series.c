@@ -152,6 +152,16 @@ static enum status reach(const struct compiled_metric *m, long n, const double *
   return OK;
 }
 
+static enum status peak(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
+                        double *expected)
+{
+  double at, highest;
+  TRY(expected_at(m, m->to, expected));
+  TRY(metric_of_peak(m, n, t, v, &at, &highest));
+  *result = (m->metric->measure == MEASURE_PEAK ? highest + m->metric->offset : at) - *expected;
+  return OK;
+}
+
 enum status metric_of_series(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
                              double *expected)
 {
@@ -175,6 +185,9 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
     return OK;
   case MEASURE_REACH:
     return reach(m, n, t, v, result, expected);
+  case MEASURE_PEAK:
+  case MEASURE_PEAK_TIME:
+    return peak(m, n, t, v, result, expected);
   case MEASURE_DRIFT:
   case MEASURE_CHANGE:
     return drift(m, n, v, result);

@@ -101,7 +101,8 @@ static enum status compile(const struct sim *sim, const struct metric *metric, s
   m->to = fmin(metric->to * unit, isfinite(metric->to) ? INFINITY : sim->scene->time_end);
   m->single = metric->measure == MEASURE_VALUE || metric->measure == MEASURE_MEAN ||
               metric->measure == MEASURE_FREQUENCY || metric->measure == MEASURE_DECAY ||
-              metric->measure == MEASURE_REACH || metric->measure == MEASURE_GAIN;
+              metric->measure == MEASURE_REACH || metric->measure == MEASURE_GAIN || metric->measure == MEASURE_PEAK ||
+              metric->measure == MEASURE_PEAK_TIME;
   if (*metric->field) return find_field(sim, m);
   metric_place_gauge(sim->scene, metric->gauge, m->x);
   return OK;
@@ -242,7 +243,7 @@ static void judge(struct metrics *metrics, int i, const struct gauges *gauges, c
   const char *unit = *m->metric->field ? m->view.field->unit : gauges_unit(gauges, m->metric->gauge);
   if (m->metric->measure == MEASURE_FREQUENCY) unit = "Hz";
   if (m->metric->measure == MEASURE_DECAY) unit = "1/s";
-  if (m->metric->measure == MEASURE_REACH) unit = "s";
+  if (m->metric->measure == MEASURE_REACH || m->metric->measure == MEASURE_PEAK_TIME) unit = "s";
   snprintf(metrics->units[i], sizeof metrics->units[i], "%s", relative ? "-" : unit);
   if (loaded) scene_expected(loaded, m->metric->name, &limit);
   *entry = (struct metric_entry){.name = m->metric->name,

@@ -189,7 +189,8 @@ static enum status check_metric_source(struct reader *reader, const struct scene
 {
   struct names names = {0};
   bool of_gauge = m->measure == MEASURE_FREQUENCY || m->measure == MEASURE_DECAY || m->measure == MEASURE_DRIFT ||
-                  m->measure == MEASURE_CHANGE || m->measure == MEASURE_GAIN || m->measure == MEASURE_REACH;
+                  m->measure == MEASURE_CHANGE || m->measure == MEASURE_GAIN || m->measure == MEASURE_REACH ||
+                  m->measure == MEASURE_PEAK || m->measure == MEASURE_PEAK_TIME;
   bool of_field = m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER || m->measure == MEASURE_L1;
   at(reader, "metrics.%s", m->name);
   if ((*m->field != '\0') == (*m->gauge != '\0'))
@@ -197,7 +198,7 @@ static enum status check_metric_source(struct reader *reader, const struct scene
   if (*m->field && of_gauge)
     return reader_fail(
         reader,
-        "frequency, decay, drift, change, gain and reach belong to a gauge, not to the field %s; give \"gauge\"",
+        "frequency, decay, drift, change, gain, reach and peaks belong to a gauge, not to the field %s; give \"gauge\"",
         m->field);
   if (*m->gauge && of_field)
     return reader_fail(reader, "roughness, scatter and l1 belong to a field, not to the gauge %s; give \"field\"",

@@ -271,6 +271,41 @@ START_TEST(gauges_over_time)
 }
 END_TEST
 
+/* a cubic, highest at t = 0.4, that rings */
+static void arch(struct sim *sim, double t)
+{
+  double s = t - 0.4;
+  sim->ledger.v[LEDGER_elastic] = 5 - s * s * (2 + s) + 0.02 * sin(60 * M_PI * t);
+  sim->ledger.v[LEDGER_kinetic_solid] = 5 - s * s * (2 + s);
+  sim->ledger.v[LEDGER_momentum_x] = t;
+}
+
+START_TEST(peaks)
+{
+  struct fake_run r;
+  struct gauge    gauges[3] = {ledger_gauge("rings", "elastic"), ledger_gauge("pure", "kinetic_solid"),
+                               ledger_gauge("rises", "momentum_x")};
+  struct metric   m[5] = {metric_of("peak", MEASURE_PEAK, "", "pure"), metric_of("time", MEASURE_PEAK_TIME, "", "pure"),
+                          metric_of("peak2", MEASURE_PEAK, "", "rings"),
+                          metric_of("time2", MEASURE_PEAK_TIME, "", "rings"),
+                          metric_of("none", MEASURE_PEAK, "", "rises")};
+  struct metric_entry e[5];
+  double              times[SAMPLES];
+  sample_times(times);
+  fake_create(2, &r);
+  for (int i = 0; i < 5; i++) expect(&m[i], "0"), m[i].from = 0.1, m[i].to = 0.9;
+  r.scene.gauges = gauges, r.scene.n_gauges = 3, r.scene.metrics = m, r.scene.n_metrics = 5;
+  ck_assert_int_eq(evaluate(&r, SAMPLES, times, arch, NULL, e), 5);
+  ck_assert_double_eq_tol(e[0].value, 5, 1e-10);
+  ck_assert_double_eq_tol(e[1].value, 0.4, 1e-10);
+  ck_assert_double_eq_tol(e[2].value, 5, 1e-3);
+  ck_assert_double_eq_tol(e[3].value, 0.4, 2e-3);
+  ck_assert(!e[4].pass);
+  for (int i = 0; i < 5; i++) function_destroy(&m[i].expected);
+  fake_destroy(&r);
+}
+END_TEST
+
 /* A bar that swings as the reference says, in the reference's own units of time and size, at the tracer's place */
 static const double bar_params[6] = {1e7, 1000, 1, 1, 0.1, 0}; /* young, density, length, height, velocity, fixed end */
 
@@ -413,6 +448,7 @@ int main(void)
   tcase_add_test(tests, roughness);
   tcase_add_test(tests, scatter);
   tcase_add_test(tests, gauges_over_time);
+  tcase_add_test(tests, peaks);
   tcase_add_test(tests, references_give_scale_and_time);
   tcase_add_test(tests, an_early_end);
   tcase_add_test(tests, judgement);
