@@ -6,27 +6,11 @@
 #include "core/parallel.h"
 #include "coupling/coupling.h"
 #include "eos/eos.h"
+#include "ice/shares.h"
 #include "mpm/at_rest.h"
 #include "mpm/mpm.h"
 
 #include <math.h>
-
-/* share of a cell inside the fluid region, from SAMPLES^dim places; a cell away from the border needs none */
-static double filled_share(const struct sim *sim, long cell)
-{
-  enum { SAMPLES = 20 };
-  int    dim = sim->grid.dim, inside = 0, all = dim == 3 ? SAMPLES * SAMPLES * SAMPLES : SAMPLES * SAMPLES;
-  double centre[3], x[3];
-  grid_centre(&sim->grid, cell, centre);
-  double distance = shape_distance(&sim->scene->fluid.region, centre);
-  if (fabs(distance) > sim->grid.h) return distance < 0;
-  for (int q = 0; q < all; q++) {
-    for (int d = 0, left = q; d < 3; d++, left /= SAMPLES)
-      x[d] = centre[d] + (d < dim ? ((left % SAMPLES + 0.5) / SAMPLES - 0.5) * sim->grid.h : 0);
-    inside += shape_contains(&sim->scene->fluid.region, x);
-  }
-  return (double)inside / all;
-}
 
 /* in a cell, with the temperature that it starts with */
 static double density_at(const struct sim *sim, const struct ice *ice, long c, double P)
@@ -42,9 +26,10 @@ static void fill_cells(struct sim *sim, struct ice *ice)
   int        dim = sim->grid.dim;
   FOR_BOX_SERIAL(&sim->grid, cells, c)
   {
-    double share = filled_share(sim, c), x[3];
-    if (share <= (ice->advects ? 0 : 0.5)) continue;
+    double x[3];
     grid_centre(&sim->grid, c, x);
+    double share = share_inside(&sim->grid, &sim->scene->fluid.region, x, -1);
+    if (share <= (ice->advects ? 0 : 0.5)) continue;
     ice->wet_cc[c] = share > 0.5;
     ice->P_cc[c] = function_value(&sim->scene->fluid.pressure, x, 0);
     ice->mass_cc[c] = share; /* becomes a mass when the pressure is known */
@@ -213,6 +198,31 @@ static void saturate_at_start(struct sim *sim, struct ice *ice)
   FOR_BOX(&sim->grid, cells, c) ice->alpha_cc[c] = ice->mass_cc[c];
 }
 
+/* Distance to an oblique or curved surface: what its true place on the way to the next centre has beyond the fill of
+ * the cell less a half, in h. Flat ones that lie along the cells need nothing. */
+static enum status measure_rim(struct sim *sim, struct ice *ice)
+{
+  static const double small = 1e-6, farthest = 1.5;
+  const struct grid  *g = &sim->grid;
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      double x[3];
+      bool   upper = ice->wet_cc[f] > 0;
+      long   c = upper ? f : f - g->stride[axis];
+      if (ice->kind[axis * g->size + f] != FACE_SURFACE) continue;
+      grid_centre(g, c, x);
+      double way = share_way_out(g, &sim->scene->fluid.region, x, axis, upper ? -1 : 1, farthest);
+      double beyond = way - (ice->mass_cc[c] - 0.5);
+      if (fabs(beyond) < small) continue;
+      if (!ice->rim) TRY(NEW(&ice->rim, g->size * g->dim));
+      ice->rim[axis * g->size + f] = beyond;
+    }
+  }
+  return OK;
+}
+
 /* share of every node's room that is wet; a surface that moves: all of it */
 static void mark_extent(struct sim *sim)
 {
@@ -284,6 +294,7 @@ enum status ice_create(struct sim *sim, void *state)
   if (c) mark_reach(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
   ice_classify_faces(sim, ice);
+  if (!ice->advects) TRY(measure_rim(sim, ice));
   weigh_cells(sim, ice, false);
   TRY(rest_pressures(sim, ice));
   weigh_cells(sim, ice, true);

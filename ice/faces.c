@@ -38,7 +38,8 @@ double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis,
     long low = face - g->stride[axis], c = ice->wet_cc[face] > 0 ? face : low;
     if (ice->advects) return fmin(1, fmax(nearest_surface, ice->alpha_cc[low] + ice->alpha_cc[face] - 0.5));
     double fill = ice->mass_cc[c] / (ice->rho_cc[c] * grid_cell_volume(g)) + 1 - ice->porosity_cc[c];
-    return fmin(farthest_surface, fmax(nearest_surface, fill - 0.5));
+    double way = fill - 0.5 + (ice->rim ? ice->rim[axis * g->size + face] : 0);
+    return fmin(farthest_surface, fmax(nearest_surface, way));
   }
   case FACE_PRESSURE:
     return 0.5;
@@ -177,17 +178,20 @@ enum status ice_predict_faces(struct sim *sim, double dt)
   return OK;
 }
 
-/* mean over the n faces at -offset around a node that are not closed */
+/* mean over the n faces at -offset around a node that feel a pressure; there are none: over those that are void */
 static inline double faces_of_node(const unsigned char *kind, const double *q, long node, int n, const long *offset)
 {
-  double total = 0;
-  int    open = 0;
+  double total = 0, falling = 0;
+  int    active = 0, open = 0;
   for (int i = 0; i < n; i++) {
-    if (kind[node - offset[i]] == FACE_CLOSED) continue;
-    total += q[node - offset[i]];
-    open++;
+    long f = node - offset[i];
+    bool feels = ice_face_active(kind[f]), falls = kind[f] == FACE_VOID;
+    total += feels ? q[f] : 0;
+    falling += falls ? q[f] : 0;
+    active += feels;
+    open += falls;
   }
-  return open ? total / open : 0;
+  return active ? total / active : open ? falling / open : 0;
 }
 
 /* skeleton nodes with the old pressure gradient along one axis */

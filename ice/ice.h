@@ -33,6 +33,7 @@ struct ice {
   struct linear           *linear;
   unsigned char           *kind; /* [dim][size] enum face_kind */
   struct plic              plic;
+  double                  *rim; /* [dim][size] h: a surface's distance beyond the fill's; NULL: none has */
   double                  *one; /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
   bool                     skeleton, moves; /* there is a skeleton; it moves */

@@ -113,6 +113,7 @@ static void destroy(void *state)
   struct ice *ice = state;
   linear_destroy(&ice->linear);
   memory_free(&ice->kind);
+  memory_free(&ice->rim);
   plic_destroy(&ice->plic);
   memory_free(&ice->one);
 }
