@@ -24,15 +24,28 @@ double advect_courant(const struct grid *g, const struct ice *ice, int axis, lon
   return fabs(liquid) / (ice->porosity_cc[from] * V);
 }
 
-/* Component d of the velocity in the middle of the step that leaves cell `from` through its face: a limited slope, and
+/* Change of velocity component d from a cell's centre to that of its neighbour along an axis. A wall mirrors: what it
+ * holds changes sign there, the rest stays. NaN where nothing is known. */
+static double change_towards(const struct sim *sim, const struct ice *ice, int axis, long from, bool up, int d)
+{
+  const struct grid *g = &sim->grid;
+  long               beyond = up ? from + g->stride[axis] : from - g->stride[axis], face = up ? beyond : from;
+  double             own = ice->vel_cc[from * g->dim + d];
+  if (ice->alpha_cc[beyond] > advect_full && ice->kind[axis * g->size + face] == FACE_INNER)
+    return ice->vel_cc[beyond * g->dim + d] - own;
+  if (ice->kind[axis * g->size + face] != FACE_CLOSED) return NAN;
+  return d == axis || sim->scene->fluid_side[2 * axis + up].kind == SIDE_NO_SLIP ? -2 * own : 0;
+}
+
+/* Component d of the velocity in the middle of the step that leaves cell `from` through its face: a limited slope, less
  * half of what pressure, weight and viscosity have changed. Bell, Colella and Glaz 1989 */
 static double leaving_velocity(const struct sim *sim, const struct ice *ice, int axis, long from, bool up, int d,
                                double number)
 {
-  const struct grid *g = &sim->grid;
-  double             slope = advect_slope(g, ice, axis, from, g->dim, ice->vel_cc + d);
-  return ice->vel_cc[from * g->dim + d] + (up ? 0.5 : -0.5) * (1 - number) * slope +
-         0.5 * ice->vel_start_cc[from * g->dim + d];
+  long   q = from * sim->grid.dim + d;
+  double below = -change_towards(sim, ice, axis, from, false, d), above = change_towards(sim, ice, axis, from, true, d);
+  double slope = isfinite(below + above) ? advect_limited(below, above) : 0;
+  return ice->vel_cc[q] + (up ? 0.5 : -0.5) * (1 - number) * slope - 0.5 * ice->vel_start_cc[q];
 }
 
 /* momentum component d through a face in dt, kg m/s */
@@ -45,7 +58,8 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
   if (liquid == 0) return 0; /* nobody knows what lies behind a wall */
   if (ice->kind[q] == FACE_INLET) return liquid * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t);
   if (!advect_is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
-  double number = advect_courant(g, ice, axis, f, from), coming = 0.5 * dt * V / g->h * ice->trend_fc[q];
+  double number = advect_courant(g, ice, axis, f, from),
+         coming = (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q];
   return (liquid + coming) * ice->rho_cc[from] * leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
 }
 
@@ -157,6 +171,7 @@ enum status ice_advect(struct sim *sim, double dt)
   int                parts = parts_of_step(sim, ice, dt);
   open_rooms(sim, ice);
   find_changes(sim, ice);
+  ice_begin_forecast(sim, ice);
   for (int part = 0; part < parts; part++) {
     plic_begin(&ice->plic, ice->alpha_cc);
     for (int i = 0; i < g->dim; i++) {
@@ -170,5 +185,6 @@ enum status ice_advect(struct sim *sim, double dt)
       if (ice->T_cc) ice_heat_settle(sim, ice);
     }
   }
+  ice_end_forecast(sim, ice, dt);
   return OK;
 }

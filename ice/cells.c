@@ -89,15 +89,17 @@ static double leaving_mass(const struct sim *sim, const struct ice *ice, double 
 }
 
 /* what the new face velocity has beyond the mean of its cells; without this memory P checkerboards as dt shrinks */
-static void remember_faces(struct sim *sim, struct ice *ice)
+static void remember_faces(struct sim *sim, struct ice *ice, double dt)
 {
   const struct grid *g = &sim->grid;
   for (int axis = 0; axis < g->dim; axis++) {
     struct box faces = grid_faces(g, axis);
     FOR_BOX(g, faces, f)
     {
-      long q = axis * g->size + f;
-      ice->beyond_fc[q] = ice->kind[q] == FACE_INNER ? ice->u_fc[q] - ice_mean_velocity(sim, ice, axis, f) : 0;
+      long   q = axis * g->size + f;
+      double carried = dt * ice_face_forecast(sim, ice, axis, f);
+      ice->beyond_fc[q] =
+          ice->kind[q] == FACE_INNER ? ice->u_fc[q] - carried - ice_mean_velocity(sim, ice, axis, f) : 0;
     }
   }
 }
@@ -136,13 +138,12 @@ static enum status watch(struct sim *sim, struct ice *ice)
 
 enum status ice_accelerate_cells(struct sim *sim, double dt)
 {
-  (void)dt;
   struct ice *ice = ice_of(sim);
   TRY(watch(sim, ice));
   move_cells(sim, ice);
   move_loose_cells(sim, ice);
   grid_fill_periodic(&sim->grid, sim->grid.dim, ice->vel_cc);
-  remember_faces(sim, ice);
+  remember_faces(sim, ice, dt);
   return OK;
 }
 
@@ -155,6 +156,6 @@ enum status ice_update_cells(struct sim *sim, double dt)
   ice->now.mass_out += leaving_mass(sim, ice, dt);
   grid_fill_periodic(&sim->grid, 1, ice->mass_cc);
   grid_fill_periodic(&sim->grid, sim->grid.dim, ice->vel_cc);
-  remember_faces(sim, ice);
+  remember_faces(sim, ice, dt);
   return OK;
 }

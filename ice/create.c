@@ -300,6 +300,7 @@ enum status ice_create(struct sim *sim, void *state)
   weigh_cells(sim, ice, true);
   start_fluxes(sim, ice);
   if (ice->params->shocks) TRY(shock_create(sim, ice));
+  if (ice->forecast_cc) ice_start_forecast(sim, ice);
   static const enum linear_method method[] = {
       [SOLVER_AUTO] = LINEAR_AUTO, [SOLVER_HYPRE] = LINEAR_HYPRE, [SOLVER_DIRECT] = LINEAR_DIRECT};
   return linear_create(&sim->grid, method[sim->scene->numerics.pressure_solver], &ice->linear);

@@ -168,9 +168,10 @@ enum status ice_predict_faces(struct sim *sim, double dt)
       if (!ice_face_active(ice->kind[base + f])) continue;
       ice->gradP_fc[base + f] = pressure_gradient(sim, ice, axis, f, sim->t + dt);
       bool mixed = ice->advects && ice->kind[base + f] == FACE_SURFACE;
-      ice->u_old_fc[base + f] =
-          mixed ? mixed_velocity(sim, ice, axis, f)
-                : ice_mean_velocity(sim, ice, axis, f) + memory_of(sim, ice, f, dt) * ice->beyond_fc[base + f];
+      ice->u_old_fc[base + f] = mixed ? mixed_velocity(sim, ice, axis, f)
+                                      : ice_mean_velocity(sim, ice, axis, f) +
+                                            memory_of(sim, ice, f, dt) * ice->beyond_fc[base + f] +
+                                            dt * ice_face_forecast(sim, ice, axis, f);
     }
   }
   ice_fill_faces(sim, ice->gradP_fc);

@@ -21,6 +21,7 @@ struct ice_params {
   bool   shocks;           /* a fluid at any speed, that fills the grid */
   double acoustic_courant; /* cells that a wave may go per step; 0: the step does not know of sound */
   double memory;           /* share of what a face had beyond the mean of its cells that it keeps */
+  double smagorinsky;      /* C of the eddies' viscosity */
   double defect_share;     /* share of the volume defect that is made good per step */
   double defect_tolerance; /* volume that the defect's solve may leave, over a cell's */
 };
@@ -45,6 +46,7 @@ struct ice {
     double mass_out;               /* kg through open sides, net, since the start */
     double squeeze;                /* 1/s, fastest change of volume of the last step; with params->shocks */
     double heat_out;               /* J that went with it */
+    double viscosity;              /* m2/s, largest with eddies */
     double defect_rms, defect_max; /* of the last step, over the pore volume */
   } now;
 };
@@ -71,6 +73,12 @@ bool ice_has_surface(const struct grid *g, const struct ice *ice, long cell);
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face);
 /** Pressure beyond a face where there is no wet cell: the side's at time t, or zero at a surface, Pa. */
 double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int axis, long face, double t);
+/** What carrying will do in the first step; before and after carrying in every step, for the next. */
+void ice_start_forecast(struct sim *sim, struct ice *ice);
+void ice_begin_forecast(struct sim *sim, struct ice *ice);
+void ice_end_forecast(struct sim *sim, struct ice *ice, double dt);
+/** Mean of what is forecast for the cells of a smooth face along its axis, m/s2; 0 at others. */
+double ice_face_forecast(const struct sim *sim, const struct ice *ice, int axis, long f);
 /** Copies owned values of a face field into the ghosts of periodic axes: the nodes of a seam have faces on both sides.
  */
 void ice_fill_faces(const struct sim *sim, double *field);
@@ -91,6 +99,8 @@ enum status ice_update_properties(struct sim *sim, double dt);
 enum status ice_find_surface(struct sim *sim, double dt);
 enum status ice_advect(struct sim *sim, double dt);
 enum status ice_diffuse_momentum(struct sim *sim, double dt);
+enum status ice_measure_eddies(struct sim *sim, double dt);
+enum status ice_centre_diffusion(struct sim *sim, double dt);
 double      ice_viscous_dt(const struct sim *sim);
 enum status ice_predict_faces(struct sim *sim, double dt);
 enum status ice_predict_solid(struct sim *sim, double dt);

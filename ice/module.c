@@ -27,7 +27,12 @@ static bool cold_shocks(const struct scene *sc) { return shocks(sc) && !warm(sc)
 static bool warm_shocks(const struct scene *sc) { return shocks(sc) && warm(sc); }
 static bool carries_cold(const struct scene *sc) { return advects(sc) && !warm(sc); }
 static bool carries_warm(const struct scene *sc) { return advects(sc) && warm(sc); }
-static bool viscous(const struct scene *sc) { return advects(sc) && sc->fluid.viscosity > 0; }
+static bool turbulent(const struct scene *sc)
+{
+  const struct ice_params *params = scene_module_params(sc, &module_ice);
+  return advects(sc) && params->smagorinsky > 0;
+}
+static bool viscous(const struct scene *sc) { return advects(sc) && (sc->fluid.viscosity > 0 || turbulent(sc)); }
 static bool no_trend(const struct scene *sc) { return !advects(sc); }
 static bool rests(const struct scene *sc) { return !advects(sc) && !shocks(sc); }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
@@ -45,7 +50,9 @@ static const struct stage stages[] = {
      "only with numerics.ice.advection", advects, ice_find_surface, NULL},
     {"ice.find_sound", SLOT_volume_fractions, "P_cc T_cc?", "sound_cc", "4.13", "only with numerics.ice.shocks", shocks,
      ice_find_sound, NULL},
-    {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "momentum_cc vel_cc", "4.11",
+    {"ice.measure_eddies", SLOT_volume_fractions, "wet_cc rho_cc vel_cc", "mu_cc", "4.11",
+     "only with numerics.ice.smagorinsky", turbulent, ice_measure_eddies, NULL},
+    {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "viscous_cc vel_cc", "4.11",
      "only with numerics.ice.advection and a viscosity", viscous, ice_diffuse_momentum, ice_viscous_dt},
     {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2",
      "only without numerics.ice.shocks", calm, ice_predict_faces, ice_dt_limit},
@@ -72,11 +79,13 @@ static const struct stage stages[] = {
      "only without numerics.ice.advection", rests, ice_update_cells, NULL},
     {"ice.accelerate_cells", SLOT_cells, "u_fc u_old_fc mass_cc vel_cc", "vel_cc beyond_fc", "4.10",
      "only with numerics.ice.advection", advects, ice_accelerate_cells, NULL},
+    {"ice.centre_diffusion", SLOT_cells, "wet_cc mass_cc vel_cc viscous_cc", "momentum_cc vel_cc", "4.11",
+     "only with numerics.ice.advection and a viscosity", viscous, ice_centre_diffusion, NULL},
     {"ice.advect", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc",
-     "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc", "4.10", "only with numerics.ice.advection, no energy",
-     carries_cold, ice_advect, NULL},
+     "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc forecast_cc", "4.10",
+     "only with numerics.ice.advection, no energy", carries_cold, ice_advect, NULL},
     {"ice.advect_with_heat", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc T_cc",
-     "pore_cc liquid_fc momentum_cc warmth_cc alpha_cc mass_cc vel_cc T_cc", "4.12",
+     "pore_cc liquid_fc momentum_cc warmth_cc alpha_cc mass_cc vel_cc T_cc forecast_cc", "4.12",
      "only with numerics.ice.advection and energy", carries_warm, ice_advect, NULL},
     {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc", "press_fc vel_cc", "4.13",
      "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
@@ -102,6 +111,8 @@ static const struct param params[] = {
      "with shocks: cells that a wave may go per step; 0: the step does not know of sound"},
     {"memory", PARAM_NUMBER, offsetof(struct ice_params, memory), "-", 0, 1, "0.99", NULL,
      "share of what a face velocity had beyond the mean of its cells that is kept for the next step"},
+    {"smagorinsky", PARAM_NUMBER, offsetof(struct ice_params, smagorinsky), "-", 0, 1, "0", NULL,
+     "C of the eddies that the grid does not show: they add density (C h)^2 |S| to the viscosity; with advection"},
     {"defect_share", PARAM_NUMBER, offsetof(struct ice_params, defect_share), "-", 0, 1, "1", NULL,
      "share of the volume defect that a step makes good"},
     {"defect_tolerance", PARAM_NUMBER, offsetof(struct ice_params, defect_tolerance), "-", 0, 1, "1e-9", NULL,
