@@ -166,7 +166,7 @@ enum metric_measure {
   MEASURE_PEAK,      /* of a gauge: maximum of the cubic through the samples in the span ... */
   MEASURE_PEAK_TIME, /* ... and s, when */
   MEASURE_SCATTER,   /* rms of a field of points about a plane through the 4 cells around along each axis */
-  MEASURE_ROUGHNESS, /* standard deviation of h2 times the Laplacian of a cell field */
+  MEASURE_ROUGHNESS, /* standard deviation of h2 times the Laplacian of a field */
   MEASURE_L1         /* mean size of the difference of a field */
 };
 #define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|change|gain|reach|peak|peak_time|scatter|roughness|l1"

@@ -16,7 +16,9 @@ struct tally {
   long                          where[BATCH];
   long                          count;
   double                        sum, sizes, squares, largest, sum_expected;
-  double                       *difference; /* NULL: not kept */
+  double                       *difference; /* of cells, or sums at nodes of what points give; NULL: not kept */
+  const struct grid            *grid;
+  bool                          points;
 };
 
 static enum status empty_batch(struct tally *a)
@@ -29,7 +31,8 @@ static enum status empty_batch(struct tally *a)
     a->squares += d * d;
     if (!(fabs(d) <= a->largest)) a->largest = fabs(d);
     a->sum_expected += a->expected[i];
-    if (a->difference) a->difference[a->where[i]] = d;
+    if (a->difference && a->points) metric_spread(a->grid, a->x[i], d, a->difference);
+    if (a->difference && !a->points) a->difference[a->where[i]] = d;
   }
   a->count += a->n;
   a->n = 0;
@@ -74,31 +77,7 @@ static enum status add_points(struct tally *a, const struct sim *sim)
   return OK;
 }
 
-/* h2 times the Laplacian of the difference; NaN where a neighbour does not count */
-static double laplacian(const struct grid *g, const double *difference, long c)
-{
-  double sum = 0;
-  for (int d = 0; d < g->dim; d++)
-    if (g->n[d] > 1) sum += difference[c - g->stride[d]] + difference[c + g->stride[d]] - 2 * difference[c];
-  return sum;
-}
-
-static double roughness(const struct grid *g, double *difference)
-{
-  const struct box cells = grid_cells(g);
-  double           sum = 0, squares = 0;
-  long             n = 0;
-  grid_fill_periodic(g, 1, difference);
-  FOR_BOX_SERIAL(g, cells, c)
-  {
-    double l = laplacian(g, difference, c);
-    if (isnan(l)) continue;
-    sum += l, squares += l * l, n++;
-  }
-  return n > 0 ? sqrt(fmax(squares / n - sum / n * (sum / n), 0)) : NAN;
-}
-
-static double measure(const struct tally *a, const struct sim *sim)
+static double measure(struct tally *a, const struct sim *sim)
 {
   double n = (double)a->count;
   switch (a->m->metric->measure) {
@@ -109,7 +88,7 @@ static double measure(const struct tally *a, const struct sim *sim)
   case MEASURE_L1:
     return a->sizes / n;
   case MEASURE_ROUGHNESS:
-    return roughness(&sim->grid, a->difference);
+    return metric_roughness(&sim->grid, a->points ? metric_finish_spread(sim, a->difference) : a->difference);
   default:
     return a->sum / n;
   }
@@ -118,14 +97,15 @@ static double measure(const struct tally *a, const struct sim *sim)
 enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, double *difference, double *result,
                             double *expected)
 {
-  struct tally a = {.m = m, .t = sim->t, .difference = difference};
+  bool         points = m->view.field->at != AT_CELL;
+  struct tally a = {.m = m, .t = sim->t, .difference = difference, .grid = &sim->grid, .points = points};
   *expected = 0;
   if (m->metric->measure == MEASURE_SCATTER) return metric_of_scatter(m, sim, difference, result);
   fields_refresh(sim, &m->view);
   if (m->wet.field) fields_refresh(sim, &m->wet);
   if (difference)
-    for (long i = 0; i < sim->grid.size; i++) difference[i] = NAN;
-  TRY((m->view.field->at == AT_CELL ? add_cells : add_points)(&a, sim));
+    for (long i = 0; i < 2 * sim->grid.size; i++) difference[i] = points ? 0 : NAN;
+  TRY((points ? add_points : add_cells)(&a, sim));
   TRY(empty_batch(&a));
   if (a.count == 0)
     return FAIL(ERR_INPUT, "metrics.%s.region: nothing of %s lies in it at t = %g s; widen it", m->metric->name,

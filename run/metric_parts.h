@@ -38,6 +38,12 @@ double metric_scale(const struct compiled_metric *m, double expected, bool *rela
 enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, double *difference, double *result,
                             double *expected) MUST_CHECK;
 enum { SCATTER_SCRATCH = 5 };
+/** Adds what a point at x gives to its nodes: sums [3][size], of weight times value and of weights. */
+void metric_spread(const struct grid *g, const double x[3], double value, double *sums);
+/** Means of the nodes, the third part of sums; NaN next to walls, surfaces and voids. */
+double *metric_finish_spread(const struct sim *sim, double *sums);
+/** Standard deviation of h2 times the Laplacian of a field of cells or nodes, NaN where it does not count. */
+double metric_roughness(const struct grid *g, double *difference);
 /** Root mean square of a field of points about a plane through the means of the 4 cells around along each axis, over
  * the points of the region whose cells around all hold points. scratch [SCATTER_SCRATCH grid.size]. */
 enum status metric_of_scatter(struct compiled_metric *m, const struct sim *sim, double *scratch,

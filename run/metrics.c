@@ -81,9 +81,6 @@ static enum status find_field(const struct sim *sim, struct compiled_metric *m)
   if (m->metric->measure == MEASURE_SCATTER && m->view.field->at == AT_CELL)
     return FAIL(ERR_INPUT, "metrics.%s.field: scatter is known of fields of points, %s belongs to cells",
                 m->metric->name, m->metric->field);
-  if (m->metric->measure == MEASURE_ROUGHNESS && m->view.field->at != AT_CELL)
-    return FAIL(ERR_INPUT, "metrics.%s.field: roughness is known of fields of cells, %s belongs to points",
-                m->metric->name, m->metric->field);
   return OK;
 }
 

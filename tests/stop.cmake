@@ -26,7 +26,7 @@ endif()
 look_for(checkpoint.h5)
 
 # a scene that cannot run leaves everything as it is
-run(2 "roughness" ${PROGRAM} run terzaghi_column --fluid twopoint --force --set metrics.p_rms_0.1.measure=roughness)
+run(2 "scatter" ${PROGRAM} run terzaghi_column --force --set metrics.p_rms_0.1.measure=scatter)
 look_for(summary.json gauges.csv checkpoint.h5 fields.cells.00000.hdf)
 
 # another one takes the folder, but not what is not the program's

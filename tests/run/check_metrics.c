@@ -426,7 +426,7 @@ START_TEST(wrong_metrics)
   ck_assert_int_eq(metrics_create(&r.sim, &metrics), ERR_INPUT);
   ck_assert_ptr_null(metrics);
   ck_assert_ptr_nonnull(strstr(status_message(), "metrics.m.field"));
-  m = metric_of("m", MEASURE_ROUGHNESS, "solid.vel_x", "");
+  m = metric_of("m", MEASURE_SCATTER, "P", "");
   ck_assert_int_eq(metrics_create(&r.sim, &metrics), ERR_INPUT);
   m = metric_of("m", MEASURE_RMS, "P", "");
   m.region = (struct shape){.kind = SHAPE_BALL, .dim = 2, .centre = {50, 0, 0}, .radius = 1};
