@@ -7,6 +7,14 @@
 /* periodic axes still need their images; walls are in the basis */
 static void fold(struct twopoint *w, double *field) { boundary_fold(&w->average_grid, w->sides, 1, field); }
 
+void twopoint_finish_average(struct sim *sim, struct twopoint *w, const struct kernel_grid *kg, const double *weight)
+{
+  struct box all = grid_all(&sim->grid);
+  double     least = 1e-12 * grid_cell_volume(&sim->grid);
+  FOR_BOX(&sim->grid, all, i) w->average_nc[i] = weight[i] > least ? w->average_nc[i] / weight[i] : 0;
+  boundary_ghosts(kg, w->sides, 1, sim->t, w->average_nc);
+}
+
 void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient)
 {
   struct scatter_args to_nodes = {.n = 2,
@@ -16,15 +24,11 @@ void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gr
                                   .gradient = {NULL, gradient},
                                   .node = {w->weight_nc, w->average_nc}};
   struct gather_args  to_points = {.n = 1, .x = w->x_w, .node = {w->average_nc}, .value = {q}, .gradient = {gradient}};
-  struct box          all = grid_all(&sim->grid);
-  double              least = 1e-12 * grid_cell_volume(&sim->grid);
   twopoint_clear(sim, 1, w->weight_nc);
   twopoint_clear(sim, 1, w->average_nc);
   FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->scatter(&w->average_grid, &run, &to_nodes);
   fold(w, w->weight_nc);
   fold(w, w->average_nc);
-  FOR_BOX(&sim->grid, all, i)
-  w->average_nc[i] = w->weight_nc[i] > least ? w->average_nc[i] / w->weight_nc[i] : 0;
-  boundary_ghosts(&w->average_grid, w->sides, 1, sim->t, w->average_nc);
-  FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->gather(&w->average_grid, &run, &to_points);
+  twopoint_finish_average(sim, w, &w->average_grid, w->weight_nc);
+  FOR_RUNS_READING(w->points, run, group) w->kernels->gather(&w->average_grid, &run, &to_points);
 }

@@ -1,4 +1,4 @@
-/* Where the water is at the start, its masses and pressures, and which scenes this path refuses. theory_twopoint 9 */
+/* Where the water is at the start, its masses and pressures, and which scenes this path refuses. theory_twopoint 10 */
 #include "twopoint/twopoint.h"
 
 #include "constitutive/constitutive.h"
@@ -126,8 +126,25 @@ static enum status start_pressure(const struct sim *sim, struct twopoint *w, lon
   TRY(at_rest_column(scene, x, &rest));
   w->P_w[p] = rest.pressure;
   scene->fluid.eos->density(scene->fluid.eos_params, 1, &rest.pressure, NULL, &rho);
-  for (int d = 0; d < sim->grid.dim; d++) w->gradP_w[p * sim->grid.dim + d] = rho * g[d];
+  for (int d = 0; d < sim->grid.dim && w->gradP_w; d++) w->gradP_w[p * sim->grid.dim + d] = rho * g[d];
   return OK;
+}
+
+/* in [-1, 1), the same for the same seed, point and axis: the mixer of splitmix64 */
+static double noise(int seed, long p, int axis)
+{
+  unsigned long long z = ((unsigned long long)seed << 40) + 3 * (unsigned long long)p + (unsigned long long)axis;
+  z = (z + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  return (double)(z >> 11) * 0x1p-52 - 1;
+}
+
+/* less than half a spacing: not across the ends of the grid */
+static void displace(const struct scene *scene, double jitter, long p, double x[3])
+{
+  for (int d = 0; d < scene->dim; d++)
+    x[d] += jitter * scene->h / scene->numerics.points_per_axis[d] * noise(scene->seed, p, d);
 }
 
 static enum status place_points(struct sim *sim, struct twopoint *w)
@@ -138,6 +155,7 @@ static enum status place_points(struct sim *sim, struct twopoint *w)
   TRY(NEW(&x, w->points->n));
   mpm_fill_shape(scene, &scene->fluid.region, x);
   for (long p = 0; p < w->points->n; p++) {
+    displace(scene, w->params->jitter, p, x[p]);
     for (int d = 0; d < dim; d++) {
       w->x_w[p * dim + d] = x[p][d];
       w->vel_w[p * dim + d] = function_value(&scene->fluid.velocity[d], x[p], 0);
@@ -157,12 +175,14 @@ static void weigh_points(struct sim *sim, struct twopoint *w)
   const double zero = 0;
   sim->scene->fluid.eos->density(sim->scene->fluid.eos_params, 1, &zero, NULL, &w->rho0);
   if (w->coupling) twopoint_start_porosity(sim, w);
-  twopoint_volume_of_pressure(sim, w);
+  twopoint_volume_of_pressure(sim, w); /* J */
   w->mass_floor = INFINITY;
   for (long p = 0; p < w->points->n; p++) {
-    w->mass_w[p] = w->rho0 * w->porosity_w[p] * w->volume_w[p] / w->J_w[p];
+    w->mass_w[p] = w->rho0 * w->porosity_w[p] * mpm_point_volume(sim->scene) / w->J_w[p];
     w->mass_floor = fmin(w->mass_floor, 1e-9 * w->mass_w[p]);
   }
+  twopoint_volume_of_pressure(sim, w);
+  twopoint_gather_volumes(sim, w, NULL);
 }
 
 enum status twopoint_create(struct sim *sim, void *state)

@@ -1,4 +1,4 @@
-/* What the water holds: mass, momentum, energies. theory_twopoint 10 */
+/* What the water holds: mass, momentum, energies. theory_twopoint 11 */
 #include "twopoint/twopoint.h"
 
 #include "eos/eos.h"
@@ -31,16 +31,22 @@ static double compression(const struct sim *sim, const struct twopoint *w, long 
   return 0.5 * P * P * kappa * w->mass_w[p] * w->J_w[p] / w->rho0;
 }
 
+void twopoint_measure_point(const struct sim *sim, const struct twopoint *w, long p, struct ledger *l)
+{
+  double gravity[3];
+  sim_gravity(sim, sim->t, gravity);
+  l->v[LEDGER_mass_fluid] += w->mass_w[p];
+  for (int d = 0; d < sim->grid.dim; d++)
+    l->v[LEDGER_potential] -= w->mass_w[p] * gravity[d] * w->x_w[p * sim->grid.dim + d];
+  l->v[LEDGER_compression] += compression(sim, w, p);
+  measure_motion(sim, w, p, l);
+}
+
 void twopoint_measure(const struct sim *sim, struct ledger *l)
 {
   const struct twopoint *w = twopoint_of(sim);
-  double                 gravity[3];
-  sim_gravity(sim, sim->t, gravity);
-  for (long p = 0; p < w->points->n; p++) {
-    l->v[LEDGER_mass_fluid] += w->mass_w[p];
-    for (int d = 0; d < sim->grid.dim; d++)
-      l->v[LEDGER_potential] -= w->mass_w[p] * gravity[d] * w->x_w[p * sim->grid.dim + d];
-    l->v[LEDGER_compression] += compression(sim, w, p);
-    measure_motion(sim, w, p, l);
-  }
+  for (long p = 0; p < w->points->n; p++) twopoint_measure_point(sim, w, p, l);
+  l->v[LEDGER_mass_fluid_out] += w->now.mass_out;
+  l->v[LEDGER_energy_out] += w->now.energy_out;
+  for (int d = 0; d < 3; d++) l->v[LEDGER_momentum_out_x + d] += w->now.momentum_out[d];
 }

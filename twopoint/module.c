@@ -12,6 +12,12 @@ static const struct param params[] = {
      "whether water pulls even where it does not fill the space around it"},
     {"max_expansion", PARAM_NUMBER, offsetof(struct twopoint_params, max_expansion), "-", 0, 1, "1e-3", NULL,
      "largest relative expansion of a water point beyond its volume without pressure"},
+    {"shifting", PARAM_NUMBER, offsetof(struct twopoint_params, shifting), "-", 0, 0.4, "0.1", NULL,
+     "how fast points leave nodes that hold more than their room: diffusion in h2 per step; 0: they stay"},
+    {"shear", PARAM_FLAG, offsetof(struct twopoint_params, shear), "-", 0, 1, "true", NULL,
+     "whether the viscosity of the water resists shear, not only in drag"},
+    {"jitter", PARAM_NUMBER, offsetof(struct twopoint_params, jitter), "-", 0, 0.5, "0", NULL,
+     "largest random displacement of a water point at the start along each axis, over the spacing; see seed"},
     PARAM_END,
 };
 
@@ -21,6 +27,11 @@ static const struct field fields[] = {
 #undef FIELD
 };
 
+static const struct twopoint_params *params_of(const struct scene *sc)
+{
+  return scene_module_params(sc, &module_twopoint);
+}
+
 static bool skeleton(const struct scene *sc) { return sc->n_solids > 0; }
 static bool bare(const struct scene *sc) { return sc->n_solids == 0; }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
@@ -28,20 +39,29 @@ static bool held(const struct scene *sc) { return skeleton(sc) && !mpm_solid_mov
 static bool still(const struct scene *sc) { return !mpm_solid_moves(sc); }
 static bool affine(const struct scene *sc) { return mpm_transfer_affine(sc); }
 static bool plain(const struct scene *sc) { return !mpm_transfer_affine(sc); }
+static bool shear(const struct scene *sc) { return params_of(sc)->shear && sc->fluid.viscosity > 0; }
+static bool skeleton_alone(const struct scene *sc) { return skeleton(sc) && !shear(sc); }
+static bool skeleton_shear(const struct scene *sc) { return skeleton(sc) && shear(sc); }
+static bool bare_alone(const struct scene *sc) { return bare(sc) && !shear(sc); }
+static bool bare_shear(const struct scene *sc) { return bare(sc) && shear(sc); }
+static bool increment(const struct scene *sc) { return params_of(sc)->average_increment; }
+static bool no_increment(const struct scene *sc) { return !params_of(sc)->average_increment; }
+static bool averaging(const struct scene *sc) { return params_of(sc)->averaging_interval > 0; }
+static bool shifting(const struct scene *sc) { return params_of(sc)->shifting > 0; }
 
-#define TO_NODES "x_w vel_w mass_w volume_w P_w water_fill_nc"
+#define TO_NODES "x_w vel_w mass_w volume_w P_w shear_w? water_fill_nc"
 #define AT_NODES "push_w water_mass_nc water_mom_nc water_force_nc water_vel_nc"
-#define RATE "x_w J_w P_w porosity_w volume_w water_vel_new_nc"
-#define NEW_STATE "flux_nc gradq_w dlnJ_w weight_nc average_nc J_w P_w gradP_w"
+#define MOVE "water_vel_nc water_vel_new_nc x_w vel_w"
+#define STATE_OF "dlnJ_w J_w mass_w porosity_w"
 
 static const struct stage stages[] = {
     {"twopoint.sort_points", SLOT_sort, "x_w", "x_w", "twopoint 3", "always", NULL, twopoint_sort_points, NULL},
-    {"twopoint.find_porosity", SLOT_fluid_to_nodes, "x_w mass_w J_w porosity_w solid_nc bulk_nc room_nc water_room_nc",
-     "skeleton_porosity_nc volume_w water_volume_nc porosity_nc water_fill_nc", "twopoint 2", "only with a skeleton",
-     skeleton, twopoint_find_porosity, NULL},
-    {"twopoint.find_volumes", SLOT_fluid_to_nodes, "x_w mass_w J_w porosity_w water_room_nc",
-     "volume_w water_volume_nc water_fill_nc", "twopoint 2", "only without a skeleton", bare, twopoint_find_porosity,
-     NULL},
+    {"twopoint.find_porosity", SLOT_fluid_to_nodes,
+     "solid_nc bulk_nc room_nc water_room_nc water_volume_nc water_pores_nc",
+     "skeleton_porosity_nc porosity_nc water_fill_nc", "twopoint 2", "only with a skeleton", skeleton,
+     twopoint_find_porosity, NULL},
+    {"twopoint.find_fill", SLOT_fluid_to_nodes, "water_room_nc water_volume_nc", "water_fill_nc", "twopoint 2",
+     "only without a skeleton", bare, twopoint_find_fill, NULL},
     {"twopoint.points_to_nodes", SLOT_fluid_to_nodes, TO_NODES " affine_w", AT_NODES, "twopoint 3",
      "only with APIC or AFLIP", affine, twopoint_points_to_nodes, NULL},
     {"twopoint.points_to_nodes_plain", SLOT_fluid_to_nodes, TO_NODES, AT_NODES, "twopoint 3", "only with PIC or FLIP",
@@ -63,14 +83,31 @@ static const struct stage stages[] = {
      "only when the skeleton is held", held, twopoint_exchange_momentum, NULL},
     {"twopoint.advance_water", SLOT_to_solid, "water_star_nc", "water_vel_new_nc", "twopoint 4",
      "only without a skeleton", bare, twopoint_exchange_momentum, NULL},
-    {"twopoint.update_pressure", SLOT_fluid_points, RATE " skeleton_porosity_nc porosity_nc vel_new_nc",
-     NEW_STATE " porosity_w", "twopoint 6", "only when a solid moves", moving, twopoint_update_pressure, NULL},
-    {"twopoint.update_pressure_held", SLOT_fluid_points, RATE " skeleton_porosity_nc porosity_nc",
-     NEW_STATE " porosity_w", "twopoint 6", "only when the skeleton is held", held, twopoint_update_pressure, NULL},
-    {"twopoint.update_pressure_bare", SLOT_fluid_points, RATE, NEW_STATE, "twopoint 6", "only without a skeleton", bare,
-     twopoint_update_pressure, NULL},
-    {"twopoint.nodes_to_points", SLOT_fluid_points, "water_vel_nc water_vel_new_nc x_w vel_w", "x_w vel_w",
-     "twopoint 3", "always", NULL, twopoint_nodes_to_points, twopoint_dt_limit},
+    {"twopoint.strain_water", SLOT_fluid_points, "x_w water_vel_new_nc vel_new_nc? skeleton_porosity_nc porosity_nc",
+     "flux_nc gradq_w dlnJ_w porosity_w", "twopoint 6", "only with a skeleton", skeleton, twopoint_strain_water, NULL},
+    {"twopoint.nodes_to_points", SLOT_fluid_points, MOVE, "x_w vel_w", "twopoint 3",
+     "only with a skeleton, without shear", skeleton_alone, twopoint_nodes_to_points, twopoint_speed_limit},
+    {"twopoint.move_and_shear", SLOT_fluid_points, MOVE, "x_w vel_w shear_w", "twopoint 3",
+     "only with a skeleton and shear", skeleton_shear, twopoint_nodes_to_points, twopoint_shear_limit},
+    {"twopoint.move_and_strain", SLOT_fluid_points, MOVE, "x_w vel_w dlnJ_w", "twopoint 3",
+     "only without a skeleton and shear", bare_alone, twopoint_nodes_to_points, twopoint_speed_limit},
+    {"twopoint.move_strain_and_shear", SLOT_fluid_points, MOVE, "x_w vel_w dlnJ_w shear_w", "twopoint 3",
+     "only without a skeleton, with shear", bare_shear, twopoint_nodes_to_points, twopoint_shear_limit},
+    {"twopoint.sort_moved", SLOT_fluid_points, "x_w", "x_w", "twopoint 3", "always", NULL, twopoint_sort_points, NULL},
+    {"twopoint.gather_volumes", SLOT_fluid_points, "x_w volume_w porosity_w", "water_volume_nc water_pores_nc?",
+     "twopoint 2", "only without averages of the increment", no_increment, twopoint_gather_water, NULL},
+    {"twopoint.gather_water", SLOT_fluid_points, "x_w volume_w porosity_w dlnJ_w",
+     "water_volume_nc water_pores_nc? average_nc", "twopoint 2, 7", "only with averages of the increment", increment,
+     twopoint_gather_water, NULL},
+    {"twopoint.update_pressure", SLOT_fluid_points, STATE_OF " average_nc water_volume_nc", "dlnJ_w J_w P_w volume_w",
+     "twopoint 6, 7", "only with averages of the increment", increment, twopoint_update_pressure, twopoint_wave_limit},
+    {"twopoint.update_pressure_alone", SLOT_fluid_points, STATE_OF, "J_w P_w volume_w", "twopoint 6",
+     "only without averages of the increment", no_increment, twopoint_update_pressure, twopoint_wave_limit},
+    {"twopoint.average_pressure", SLOT_fluid_points, "x_w volume_w P_w gradP_w",
+     "weight_nc average_nc P_w gradP_w J_w volume_w", "twopoint 7", "only with an averaging interval", averaging,
+     twopoint_average_pressure, NULL},
+    {"twopoint.shift_points", SLOT_fluid_points, "x_w water_volume_nc water_room_nc", "excess_nc slope_w x_w",
+     "twopoint 8", "only with shifting", shifting, twopoint_shift_points, NULL},
 };
 
 static enum status count(const struct scene *scene, long n[], int groups[])

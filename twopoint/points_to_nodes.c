@@ -1,23 +1,8 @@
-/* Water points to nodes: mass, momentum, pressure force; nodal velocities. theory_twopoint 3 */
+/* Water points to nodes: mass, momentum, force of pressure and shear; nodal velocities. theory_twopoint 3 */
 #include "twopoint/twopoint.h"
 
 #include "core/parallel.h"
 #include "mpm/mpm.h"
-
-enum status twopoint_sort_now(struct sim *sim, struct twopoint *w)
-{
-  TRY(points_sort(&sim->grid, w->points, w->x_w));
-  points_permute_fields(w->points, sim->scene, AT_WATER, module_twopoint.fields, module_twopoint.n_fields, w);
-  points_sorted(w->points);
-  return OK;
-}
-
-enum status twopoint_sort_points(struct sim *sim, double dt)
-{
-  (void)dt;
-  struct twopoint *w = twopoint_of(sim);
-  return points_need_sort(&sim->grid, w->points, w->x_w) ? twopoint_sort_now(sim, w) : OK;
-}
 
 static const double full_enough = 0.9; /* fill at a point from which on its water holds together under tension */
 
@@ -32,11 +17,9 @@ static double fill_at(const struct twopoint *w, int dim, long p)
 }
 
 /* spray and surfaces do not pull; the state keeps its sign, or averages would pump volume in */
-static void find_push(const struct sim *sim, struct twopoint *w)
+static void find_push(const struct twopoint *w, int dim, long begin, long end)
 {
-  int dim = sim->grid.dim;
-  PARALLEL_FOR
-  for (long p = 0; p < w->points->n; p++) {
+  for (long p = begin; p < end; p++) {
     bool pulls = w->P_w[p] >= 0 || w->params->tension || fill_at(w, dim, p) >= full_enough;
     w->push_w[p] = pulls ? w->P_w[p] : 0;
   }
@@ -63,15 +46,19 @@ enum status twopoint_points_to_nodes(struct sim *sim, double dt)
                                 .affine = w->affine_w,
                                 .mass = w->mass_w,
                                 .volume = w->volume_w,
+                                .stress = w->shear_w,
                                 .pressure = w->push_w,
                                 .mass_nc = w->water_mass_nc,
                                 .mom_nc = w->water_mom_nc,
                                 .force_nc = w->water_force_nc};
-  find_push(sim, w);
   twopoint_clear(sim, 1, w->water_mass_nc);
   twopoint_clear(sim, dim, w->water_mom_nc);
   twopoint_clear(sim, dim, w->water_force_nc);
-  FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->p2g(&w->kernel_grid, &run, &args);
+  FOR_RUNS(w->points, &sim->grid, run, group)
+  {
+    find_push(w, dim, run.begin, run.end);
+    w->kernels->p2g(&w->kernel_grid, &run, &args);
+  }
   boundary_fold(&w->kernel_grid, w->sides, 1, w->water_mass_nc);
   boundary_fold(&w->kernel_grid, w->sides, dim, w->water_mom_nc);
   boundary_fold(&w->kernel_grid, w->sides, dim, w->water_force_nc);

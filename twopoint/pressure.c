@@ -8,28 +8,39 @@
 #include <math.h>
 #include <string.h>
 
-void twopoint_pressure_of_volume(const struct sim *sim, struct twopoint *w)
+/* calls the law for every batch of points [begin, end) */
+#define FOR_BATCHES(p, n, begin, end)                                                                                  \
+  for (long p = (begin), n = 0; p < (end) && (n = (end)-p < WATER_BATCH ? (end)-p : WATER_BATCH); p += n)
+
+static void pressure_of_volume(const struct sim *sim, struct twopoint *w, long begin, long end)
 {
   const struct fluid *fluid = &sim->scene->fluid;
-  PARALLEL_FOR
-  for (long p = 0; p < w->points->n; p += WATER_BATCH) {
-    int    n = w->points->n - p < WATER_BATCH ? (int)(w->points->n - p) : WATER_BATCH;
+  FOR_BATCHES(p, n, begin, end)
+  {
     double rho[WATER_BATCH];
     for (int i = 0; i < n; i++) rho[i] = w->rho0 / w->J_w[p + i];
-    fluid->eos->pressure(fluid->eos_params, n, rho, NULL, w->P_w + p);
+    fluid->eos->pressure(fluid->eos_params, (int)n, rho, NULL, w->P_w + p);
+  }
+}
+
+static void volume_of_pressure(const struct sim *sim, struct twopoint *w, long begin, long end)
+{
+  const struct fluid *fluid = &sim->scene->fluid;
+  FOR_BATCHES(p, n, begin, end)
+  {
+    double rho[WATER_BATCH];
+    fluid->eos->density(fluid->eos_params, (int)n, w->P_w + p, NULL, rho);
+    for (int i = 0; i < n; i++) {
+      w->J_w[p + i] = w->rho0 / rho[i];
+      w->volume_w[p + i] = w->mass_w[p + i] / (rho[i] * w->porosity_w[p + i]);
+    }
   }
 }
 
 void twopoint_volume_of_pressure(const struct sim *sim, struct twopoint *w)
 {
-  const struct fluid *fluid = &sim->scene->fluid;
   PARALLEL_FOR
-  for (long p = 0; p < w->points->n; p += WATER_BATCH) {
-    int    n = w->points->n - p < WATER_BATCH ? (int)(w->points->n - p) : WATER_BATCH;
-    double rho[WATER_BATCH];
-    fluid->eos->density(fluid->eos_params, n, w->P_w + p, NULL, rho);
-    for (int i = 0; i < n; i++) w->J_w[p + i] = w->rho0 / rho[i];
-  }
+  for (long r = 0; r < w->points->n_runs; r++) volume_of_pressure(sim, w, w->points->start[r], w->points->start[r + 1]);
 }
 
 /* q = n v_f + (1 - n) v_s; its divergence is the adjoint of the forces n F and (1 - n) F */
@@ -37,53 +48,84 @@ static void find_flux(const struct sim *sim, struct twopoint *w)
 {
   struct box all = grid_all(&sim->grid);
   int        dim = sim->grid.dim;
-  memcpy(w->flux_nc, w->water_vel_new_nc, (size_t)(sim->grid.size * dim) * sizeof(double));
-  if (!w->coupling) return;
   FOR_BOX(&sim->grid, all, i)
   for (int d = 0; d < dim; d++) {
-    double solid = w->mpm ? w->mpm->vel_new_nc[i * dim + d] : 0;
-    w->flux_nc[i * dim + d] = w->porosity_nc[i] * w->flux_nc[i * dim + d] + (1 - w->porosity_nc[i]) * solid;
+    double n = w->porosity_nc[i], solid = w->mpm ? w->mpm->vel_new_nc[i * dim + d] : 0;
+    w->flux_nc[i * dim + d] = n * w->water_vel_new_nc[i * dim + d] + (1 - n) * solid;
   }
 }
 
-/* dlnJ = dt div q / n at every point, n taken at the same place */
-static void find_increment(struct sim *sim, struct twopoint *w, double dt)
+/* dlnJ = dt div q / n, n taken at the same place */
+static void find_increment(struct twopoint *w, int dim, double dt, long begin, long end)
 {
-  int                dim = sim->grid.dim;
-  struct gather_args args = {.n = dim, .x = w->x_w, .gradient_stride = dim * dim};
-  for (int d = 0; d < dim; d++) {
-    args.node[d] = w->flux_nc + d;
-    args.stride[d] = dim;
-    args.gradient[d] = w->gradq_w + d * dim;
-  }
-  if (w->coupling) {
-    args.node[dim] = w->skeleton_porosity_nc;
-    args.value[dim] = w->porosity_w;
-    args.n++;
-  }
-  FOR_RUNS(w->points, &sim->grid, run, group) w->kernels->gather(&w->kernel_grid, &run, &args);
-  PARALLEL_FOR
-  for (long p = 0; p < w->points->n; p++) {
+  for (long p = begin; p < end; p++) {
     double divergence = 0;
     for (int d = 0; d < dim; d++) divergence += w->gradq_w[(p * dim + d) * dim + d];
     w->dlnJ_w[p] = dt * divergence / w->porosity_w[p];
   }
 }
 
-enum status twopoint_update_pressure(struct sim *sim, double dt)
+/* in a skeleton; without one the increment comes with the points' velocity gradient */
+enum status twopoint_strain_water(struct sim *sim, double dt)
 {
-  struct twopoint *w = twopoint_of(sim);
-  double           largest = 1 + w->params->max_expansion;
-  int              m = w->params->averaging_interval;
+  struct twopoint   *w = twopoint_of(sim);
+  int                dim = sim->grid.dim;
+  struct gather_args args = {.n = dim + 1, .x = w->x_w, .gradient_stride = dim * dim};
+  for (int d = 0; d < dim; d++) {
+    args.node[d] = w->flux_nc + d;
+    args.stride[d] = dim;
+    args.gradient[d] = w->gradq_w + d * dim;
+  }
+  args.node[dim] = w->skeleton_porosity_nc;
+  args.value[dim] = w->porosity_w;
   find_flux(sim, w);
-  find_increment(sim, w, dt);
-  if (w->params->average_increment) twopoint_average(sim, w, w->dlnJ_w, NULL);
-  PARALLEL_FOR
-  for (long p = 0; p < w->points->n; p++) w->J_w[p] = fmin(largest, w->J_w[p] * exp(w->dlnJ_w[p]));
-  twopoint_pressure_of_volume(sim, w);
-  if (m > 0 && sim->step % m == 0) {
-    twopoint_average(sim, w, w->P_w, w->gradP_w);
-    twopoint_volume_of_pressure(sim, w);
+  FOR_RUNS_READING(w->points, run, group)
+  {
+    w->kernels->gather(&w->kernel_grid, &run, &args);
+    find_increment(w, dim, dt, run.begin, run.end);
   }
   return OK;
+}
+
+/* J and P at the end of the step, and the volume that goes with them */
+static void compress(const struct sim *sim, struct twopoint *w, long begin, long end)
+{
+  double largest = 1 + w->params->max_expansion;
+  for (long p = begin; p < end; p++) {
+    w->J_w[p] = fmin(largest, w->J_w[p] * exp(w->dlnJ_w[p]));
+    w->volume_w[p] = w->mass_w[p] * w->J_w[p] / (w->rho0 * w->porosity_w[p]);
+  }
+  pressure_of_volume(sim, w, begin, end);
+}
+
+enum status twopoint_update_pressure(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct twopoint   *w = twopoint_of(sim);
+  bool               average = w->params->average_increment;
+  struct gather_args args = {.n = 1, .x = w->x_w, .node = {w->average_nc}, .value = {w->dlnJ_w}};
+  if (average) twopoint_finish_average(sim, w, &w->kernel_grid, w->water_volume_nc);
+  FOR_RUNS_READING(w->points, run, group)
+  {
+    if (average) w->kernels->gather(&w->kernel_grid, &run, &args);
+    compress(sim, w, run.begin, run.end);
+  }
+  return OK;
+}
+
+enum status twopoint_average_pressure(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct twopoint *w = twopoint_of(sim);
+  if (sim->step % w->params->averaging_interval != 0) return OK;
+  twopoint_average(sim, w, w->P_w, w->gradP_w);
+  twopoint_volume_of_pressure(sim, w);
+  return OK;
+}
+
+/* sound */
+double twopoint_wave_limit(const struct sim *sim)
+{
+  const struct twopoint *w = twopoint_of(sim);
+  return sim->scene->numerics.dt_factor * mpm_basis_step(sim->scene) * sim->grid.h / w->fast_wave;
 }

@@ -14,6 +14,9 @@ struct twopoint_params {
   bool   average_increment;  /* the increment of ln J is averaged in every step */
   bool   tension;            /* water pulls even where it does not fill the space */
   double max_expansion;      /* J is at most 1 + this */
+  double shifting;           /* share of the excess at a node that shifts points in a step, roughly; 0: none do */
+  bool   shear;              /* viscosity resists shear */
+  double jitter;             /* spacings: largest random displacement of a point at the start, along each axis */
 };
 
 struct twopoint {
@@ -35,7 +38,10 @@ struct twopoint {
   double                        fast_wave;                 /* m/s, c_f */
   bool                          grains_held; /* some skeleton does not move and takes its share of forces */
   struct twopoint_numbers {
-    double speed; /* m/s, fastest point of the last step */
+    double speed;                         /* m/s, fastest point of the last step */
+    double put_back, deleted, flowed_out; /* points that left the grid, since the start */
+    double mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
+    double momentum_out[3];               /* kg m/s; these two also lost when points were put back */
   } now;
 };
 
@@ -53,30 +59,42 @@ void        twopoint_measure(const struct sim *sim, struct ledger *ledger);
 
 enum status twopoint_sort_points(struct sim *sim, double dt);
 enum status twopoint_find_porosity(struct sim *sim, double dt);
+enum status twopoint_find_fill(struct sim *sim, double dt);
 enum status twopoint_points_to_nodes(struct sim *sim, double dt);
 enum status twopoint_predict_nodes(struct sim *sim, double dt);
 enum status twopoint_resist_nodes(struct sim *sim, double dt);
 enum status twopoint_exchange_momentum(struct sim *sim, double dt);
-enum status twopoint_update_pressure(struct sim *sim, double dt);
+enum status twopoint_strain_water(struct sim *sim, double dt);
 enum status twopoint_nodes_to_points(struct sim *sim, double dt);
-double      twopoint_dt_limit(const struct sim *sim);
+enum status twopoint_gather_water(struct sim *sim, double dt);
+enum status twopoint_update_pressure(struct sim *sim, double dt);
+enum status twopoint_average_pressure(struct sim *sim, double dt);
+enum status twopoint_shift_points(struct sim *sim, double dt);
+double      twopoint_speed_limit(const struct sim *sim);
+double      twopoint_shear_limit(const struct sim *sim);
+double      twopoint_wave_limit(const struct sim *sim);
 
 /** m/s: fast wave of water and a skeleton that drag has not locked yet, largest eigenvalue of R^-1 S. n: porosity;
  *  E_oed Pa; rho_s, rho kg/m3; K Pa. A skeleton that is held: rho_s = INFINITY. */
 double twopoint_fast_wave(double n, double E_oed, double rho_s, double rho, double K);
 
-/** Sorts the water now, whether needed or not. */
+/** Sorts the water now, whether needed or not; points outside the grid are dealt with. */
 enum status twopoint_sort_now(struct sim *sim, struct twopoint *w) MUST_CHECK;
 /** Porosity at the points at the start, from the volumes that they have. */
 void twopoint_start_porosity(struct sim *sim, struct twopoint *w);
-/** P_w from J_w, or J_w from P_w, by the law. */
-void twopoint_pressure_of_volume(const struct sim *sim, struct twopoint *w);
+/** Volumes, and with a skeleton pores, gathered at nodes; increment [n] of the points: likewise, into average_nc. */
+void twopoint_gather_volumes(struct sim *sim, struct twopoint *w, const double *increment);
+/** J_w and volume_w from P_w, by the law. */
 void twopoint_volume_of_pressure(const struct sim *sim, struct twopoint *w);
 /** Replaces q [n] of the points by its average over volume, point -> node -> point; gradient [n][dim]: of q at the
  * points, used so that linear fields stay as they are, then replaced by that of the average; NULL: zeroth order. */
 void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient);
+/** What was gathered in average_nc becomes a mean: weight [size] m3. */
+void twopoint_finish_average(struct sim *sim, struct twopoint *w, const struct kernel_grid *kg, const double *weight);
 /** Fastest point. ERR_DIVERGED if it has no finite velocity. */
 enum status twopoint_find_speed(struct sim *sim, struct twopoint *w) MUST_CHECK;
+/** Adds mass, momentum and energy of point p. */
+void twopoint_measure_point(const struct sim *sim, const struct twopoint *w, long p, struct ledger *l);
 
 /** Whether the solid or a held skeleton takes its share of the forces at a node. */
 bool twopoint_shares(const struct twopoint *w, long node);
