@@ -6,6 +6,8 @@
 #include "eos/eos.h"
 #include "mpm/absorb.h"
 #include "mpm/mpm.h"
+#include "mpm/rub.h"
+#include "mpm/walls.h"
 
 #include <math.h>
 #include <string.h>
@@ -242,13 +244,15 @@ static void skeleton_faces(struct sim *sim, struct ice *ice, int axis)
 
 enum status ice_predict_solid(struct sim *sim, double dt)
 {
-  struct ice                  *ice = ice_of(sim);
-  const struct side_condition *sides = sim->scene->solid_side;
-  int                          dim = sim->grid.dim;
+  struct ice *ice = ice_of(sim);
+  struct mpm *m = mpm_of(sim);
+  int         dim = sim->grid.dim;
   for (int axis = 0; axis < dim; axis++) predict_nodes(sim, ice, axis, dt);
-  absorb_slow(sim, mpm_of(sim), dt, ice->vel_star_nc);
-  boundary_velocity(&sim->grid, sides, sim->t + dt, ice->vel_star_nc);
-  boundary_ghosts(&mpm_of(sim)->kernel_grid, sides, dim, sim->t + dt, ice->vel_star_nc);
+  absorb_slow(sim, m, dt, ice->vel_star_nc);
+  boundary_velocity(&sim->grid, m->sides, sim->t + dt, ice->vel_star_nc);
+  rub_nodes(sim, m, dt, ice->vel_star_nc);
+  TRY(walls_meet_predicted(sim, m, ice->vel_star_nc));
+  boundary_ghosts(&m->kernel_grid, m->sides, dim, sim->t + dt, ice->vel_star_nc);
   for (int axis = 0; axis < dim; axis++) skeleton_faces(sim, ice, axis);
   ice_fill_faces(sim, ice->s_old_fc);
   return OK;

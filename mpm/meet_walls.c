@@ -129,13 +129,14 @@ static void sweep_all(struct walls_state *s, struct sweep *sweeps)
     }
 }
 
-static void prepare(const struct sim *sim, const struct mpm *m, int body, struct sweep *sweeps)
+/* vel_nc: where a body's velocities at the end of the step stand */
+static void prepare(const struct sim *sim, const struct mpm *m, int body, double *vel_nc, struct sweep *sweeps)
 {
   for (int i = 0; i < m->walls->n_walls; i++) {
     const struct wall *wall = &m->walls->wall[i];
     sweeps[i] = (struct sweep){.dim = sim->grid.dim, .wall = i, .body = body, .friction = wall->body.friction};
     sweeps[i].vel_old_nc = m->bodies[body].vel_nc;
-    sweeps[i].vel_nc = m->bodies[body].vel_new_nc;
+    sweeps[i].vel_nc = vel_nc;
     memcpy(sweeps[i].moved, m->now.wall[wall->account].velocity, sizeof sweeps[i].moved);
     wall_velocity(&wall->body, sim->t + 0.5 * sim->dt, sweeps[i].moves);
   }
@@ -144,8 +145,18 @@ static void prepare(const struct sim *sim, const struct mpm *m, int body, struct
 void walls_meet_again(const struct sim *sim, struct mpm *m, int body)
 {
   struct sweep sweeps[MAX_WALLS];
-  prepare(sim, m, body, sweeps);
+  prepare(sim, m, body, m->bodies[body].vel_new_nc, sweeps);
   sweep_all(m->walls, sweeps);
+}
+
+enum status walls_meet_predicted(struct sim *sim, struct mpm *m, double *vel_nc)
+{
+  struct sweep sweeps[MAX_WALLS];
+  if (!m->walls || m->n_bodies > 1) return OK;
+  TRY(touches_find(sim, m));
+  prepare(sim, m, 0, vel_nc, sweeps);
+  sweep_all(m->walls, sweeps);
+  return OK;
 }
 
 /* what walls did to a body goes to their accounts */
@@ -232,7 +243,7 @@ enum status mpm_meet_walls(struct sim *sim, double dt)
   for (int i = 0; i < s->n_walls; i++) memset(m->now.wall[s->wall[i].account].force, 0, 3 * sizeof(double));
   for (int b = 0; b < m->n_bodies; b++) {
     struct sweep sweeps[MAX_WALLS];
-    prepare(sim, m, b, sweeps);
+    prepare(sim, m, b, m->bodies[b].vel_new_nc, sweeps);
     sweep_all(s, sweeps);
     for (int i = 0; i < s->n_walls; i++) {
       sum_up(s, &sweeps[i]);

@@ -2,6 +2,7 @@
 #include "mpm/absorb.h"
 #include "mpm/create.h"
 #include "mpm/heat.h"
+#include "mpm/rub.h"
 #include "mpm/settle.h"
 #include "mpm/sides.h"
 #include "mpm/stages.h"
@@ -44,6 +45,7 @@ static bool loaded(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n
 static bool marked(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_loads + sc->n_tracers > 0; }
 static bool touching(const struct scene *sc) { return mpm_solid_moves(sc) && sc->n_bodies > 1; }
 static bool watched(const struct scene *sc) { return mpm_solid_moves(sc) && sides_watched(sc); }
+static bool rubbed(const struct scene *sc) { return mpm_solid_moves(sc) && rub_present(sc); }
 static bool walled(const struct scene *sc) { return mpm_solid_moves(sc) && walls_present(sc); }
 static bool pushed(const struct scene *sc) { return touching(sc) && sc->fluid.present; }
 static bool damped(const struct scene *sc) { return mpm_solid_moves(sc) && mpm_params(sc)->damping > 0; }
@@ -111,6 +113,8 @@ static const struct stage stages[] = {
      mpm_load_surfaces, NULL},
     {"mpm.hold_sides", SLOT_fold, "reaction_nc mass_nc", "force_nc", "3.9", "only when a side absorbs", absorbing,
      mpm_hold_sides, NULL},
+    {"mpm.press_sides", SLOT_fold, "x_p volume_p stress_p", NULL, "3.12", "only when a side rubs in a fluid", rubbed,
+     mpm_press_sides, NULL},
     {"mpm.join_bodies", SLOT_fold, "mass_nc mom_nc force_nc", "mass_nc mom_nc force_nc vel_nc", "3.4",
      "only when bodies are in contact", touching, mpm_join_bodies, NULL},
     {"mpm.share_push", SLOT_nodes, "mass_nc force_nc", "force_nc", "3.4", "only when bodies are in contact in a fluid",
@@ -123,6 +127,8 @@ static const struct stage stages[] = {
      mpm_solid_moves, mpm_advance_nodes, NULL},
     {"mpm.watch_sides", SLOT_nodes, "mass_nc mom_nc force_nc vel_nc vel_new_nc", NULL, "3.2",
      "only when a side moves or has a gauge", watched, mpm_watch_sides, NULL},
+    {"mpm.rub_sides", SLOT_nodes, "mass_nc vel_nc vel_new_nc", "vel_new_nc", "3.12", "only when a side rubs in a fluid",
+     rubbed, mpm_rub_sides, NULL},
     {"mpm.resolve_contact", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc", "vel_new_nc", "3.4",
      "only when bodies are in contact, no heat", touching_cold, mpm_resolve_contact, NULL},
     {"mpm.resolve_contact_and_warm", SLOT_nodes, "x_p volume_p F_p mass_nc vel_nc vel_new_nc heat_source_nc",
@@ -205,6 +211,7 @@ static enum status create(struct sim *sim, void *state)
   TRY(mpm_create_heat(sim, m));
   TRY(mpm_sort_now(sim, m));
   if (walled(sim->scene)) TRY(walls_create(sim, m));
+  if (rubbed(sim->scene)) TRY(rub_create(sim, m));
   m->mass_floor = INFINITY;
   for (long p = 0; p < m->points->n && m->mass_p; p++) m->mass_floor = fmin(m->mass_floor, 1e-12 * m->mass_p[p]);
   if (!m->moves) return OK;
@@ -227,6 +234,7 @@ static void destroy(void *state)
   memory_free(&m->marker_body);
   mpm_destroy_bodies(m);
   sides_destroy(m);
+  rub_destroy(m);
   walls_destroy(m);
   absorb_destroy(m);
 }

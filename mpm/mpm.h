@@ -62,11 +62,12 @@ struct mpm {
   struct body_nodes    *bodies;      /* [n_bodies] */
   int                  *marker_body; /* [markers] */
   struct contact_state *contact;     /* NULL: one body */
-  /* what the sides do to the nodes of the solid: those of the scene, but open where it rubs and mpm.meet_walls stops it
-   */
+  /* what the sides do to the nodes of the solid: those of the scene, but open where one rubs, no fluid is there and
+   * mpm.meet_walls stops the solid */
   struct side_condition sides[SIDES];
   struct sides_state   *watched;    /* NULL: no side is watched */
   struct walls_state   *walls;      /* NULL: no obstacles, and no side rubs */
+  struct rub_state     *rub;        /* NULL: no side rubs in a fluid */
   struct absorb_state  *absorb;     /* NULL: no side absorbs */
   double                mass_floor; /* kg: a node with less has no velocity */
   struct mpm_numbers {

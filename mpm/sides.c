@@ -19,7 +19,7 @@ void sides_of_solid(const struct scene *scene, struct side_condition sides[SIDES
 {
   for (int side = 0; side < SIDES; side++) {
     sides[side] = scene->solid_side[side];
-    if (sides[side].rubs) sides[side].kind = SIDE_OPEN;
+    if (sides[side].rubs && !scene->fluid.present) sides[side].kind = SIDE_OPEN;
   }
 }
 
@@ -28,7 +28,8 @@ static bool watched(const struct scene *scene, int side)
   static const char *const     names[SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
   const struct side_condition *s = &scene->solid_side[side];
   bool                         seen = s->kind == SIDE_VELOCITY;
-  if (s->kind == SIDE_OPEN || s->kind == SIDE_PERIODIC || s->kind == SIDE_ABSORBING || s->rubs) return false;
+  if (s->kind == SIDE_OPEN || s->kind == SIDE_PERIODIC || s->kind == SIDE_ABSORBING) return false;
+  if (s->rubs && !scene->fluid.present) return false;
   for (int i = 0; i < scene->n_gauges; i++)
     seen = seen || (scene->gauges[i].kind == GAUGE_WALL && strcmp(scene->gauges[i].on, names[side]) == 0);
   return seen;
@@ -90,6 +91,12 @@ static void keep(const struct grid *g, const struct body_nodes *sums, enum fold 
   memcpy(ghosts->force_nc, sums->force_nc, n * sizeof(double));
 }
 
+static bool holds(const struct side_condition *s, int axis, int d)
+{
+  if (s->kind == SIDE_OPEN || s->kind == SIDE_PERIODIC || s->kind == SIDE_ABSORBING) return false;
+  return d == axis || s->kind == SIDE_NO_SLIP || (s->kind == SIDE_VELOCITY && !s->rubs);
+}
+
 /* on a side that moves with w the ghosts' momentum p becomes p - 2 w m, so that folding leaves 2 w m - p */
 static void shift_momenta(const struct grid *g, const struct side_condition *s, int side, double t,
                           const struct body_nodes *own)
@@ -101,7 +108,8 @@ static void shift_momenta(const struct grid *g, const struct side_condition *s, 
     double x[3], w[3];
     grid_node(g, c, x);
     boundary_speed(s, x, t, w);
-    for (int d = 0; d < g->dim; d++) own->mom_nc[c * g->dim + d] -= 2 * w[d] * own->mass_nc[c];
+    for (int d = 0; d < g->dim; d++)
+      if (holds(s, side / 2, d)) own->mom_nc[c * g->dim + d] -= 2 * w[d] * own->mass_nc[c];
   }
 }
 
@@ -135,12 +143,6 @@ struct account {
   double                   gravity, blend; /* m/s2; share of nodal velocities in the points' update */
   double                   before, after;  /* m/s, of the side at both ends of the step */
 };
-
-static bool holds(const struct side_condition *s, int axis, int d)
-{
-  if (s->kind == SIDE_OPEN || s->kind == SIDE_PERIODIC || s->kind == SIDE_ABSORBING) return false;
-  return d == axis || s->kind == SIDE_NO_SLIP || s->kind == SIDE_VELOCITY;
-}
 
 /* Whether another side holds the component too: on it (beyond = 0), only the last of all sides has its way; or beyond
  * it, where the ghost's ghost has the sign of the node again and nobody holds it. */

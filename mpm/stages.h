@@ -16,6 +16,8 @@ enum status mpm_join_bodies(struct sim *sim, double dt);
 enum status mpm_watch_sides(struct sim *sim, double dt);
 enum status mpm_resolve_contact(struct sim *sim, double dt);
 enum status mpm_meet_walls(struct sim *sim, double dt);
+enum status mpm_press_sides(struct sim *sim, double dt);
+enum status mpm_rub_sides(struct sim *sim, double dt);
 enum status mpm_expel_points(struct sim *sim, double dt);
 enum status mpm_join_velocities(struct sim *sim, double dt);
 enum status mpm_share_push(struct sim *sim, double dt);

@@ -8,10 +8,16 @@
 
 static const char *const side_words[SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
+/* in a fluid a side that rubs holds the solid: mpm/rub.c */
+static bool is_wall(const struct scene *scene, int side)
+{
+  return scene->solid_side[side].rubs && !scene->fluid.present;
+}
+
 bool walls_present(const struct scene *scene)
 {
   bool present = scene->n_obstacles > 0;
-  for (int side = 0; side < 2 * scene->dim; side++) present = present || scene->solid_side[side].rubs;
+  for (int side = 0; side < 2 * scene->dim; side++) present = present || is_wall(scene, side);
   return present;
 }
 
@@ -35,7 +41,7 @@ enum status walls_create(struct sim *sim, struct mpm *m)
   TRY(NEW(&m->walls, 1));
   struct walls_state *s = m->walls;
   for (int side = 0; side < 2 * scene->dim; side++)
-    if (scene->solid_side[side].rubs) s->wall[s->n_walls++] = (struct wall){beyond(scene, side), side};
+    if (is_wall(scene, side)) s->wall[s->n_walls++] = (struct wall){beyond(scene, side), side};
   for (int i = 0; i < scene->n_obstacles; i++) s->wall[s->n_walls++] = (struct wall){scene->obstacles[i], SIDES + i};
   TRY(touches_create(sim, m, s));
   touches_lay_down(sim, m);

@@ -70,7 +70,11 @@ void touches_lay_down(const struct sim *sim, struct mpm *m);
 /** Finds where which body touches which wall, at the places of the points and with the masses of the nodes. */
 enum status touches_find(struct sim *sim, struct mpm *m) MUST_CHECK;
 /** MUSL: the velocities that were gathered again meet the walls again, with the impulses of the step in stock. */
-void        walls_meet_again(const struct sim *sim, struct mpm *m, int body);
+void walls_meet_again(const struct sim *sim, struct mpm *m, int body);
+/** Predicted velocities vel_nc [size][dim] of the only body meet the walls, before a fluid hears of them: pressure
+ * would else be made for a skeleton that slides where friction holds it. mpm.meet_walls comes later and keeps the
+ * account. Several bodies: nothing is done, their predicted velocities are one. */
+enum status walls_meet_predicted(struct sim *sim, struct mpm *m, double *vel_nc) MUST_CHECK;
 enum status touches_create(const struct sim *sim, const struct mpm *m, struct walls_state *s) MUST_CHECK;
 void        touches_destroy(struct walls_state *s);
 

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "mpm/absorb.h"
 #include "mpm/mpm.h"
+#include "mpm/rub.h"
 
 #include <string.h>
 
@@ -47,7 +48,8 @@ static void predict_solid(struct sim *sim, struct twopoint *w, const double grav
       w->solid_star_nc[i * dim + d] += dt * (force / m->mass_nc[i] + gravity[d]);
     }
   absorb_slow(sim, m, dt, w->solid_star_nc);
-  boundary_velocity(g, sim->scene->solid_side, sim->t + dt, w->solid_star_nc);
+  boundary_velocity(g, m->sides, sim->t + dt, w->solid_star_nc);
+  rub_nodes(sim, m, dt, w->solid_star_nc);
 }
 
 enum status twopoint_predict_nodes(struct sim *sim, double dt)
