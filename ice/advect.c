@@ -21,7 +21,7 @@ bool advect_is_smooth(const struct sim *sim, const struct ice *ice, int axis, lo
 double advect_courant(const struct grid *g, const struct ice *ice, int axis, long f, long from)
 {
   double V = grid_cell_volume(g), liquid = ice->liquid_fc[axis * g->size + f] * V;
-  return fabs(liquid) / (ice->porosity_cc[from] * V);
+  return fabs(liquid) / (ice->pore_cc[from] * V);
 }
 
 /* Change of velocity component d from a cell's centre to that of its neighbour along an axis. A wall mirrors: what it
@@ -31,6 +31,7 @@ static double change_towards(const struct sim *sim, const struct ice *ice, int a
   const struct grid *g = &sim->grid;
   long               beyond = up ? from + g->stride[axis] : from - g->stride[axis], face = up ? beyond : from;
   double             own = ice->vel_cc[from * g->dim + d];
+  if (ice->open_cc[from] < 1) return NAN; /* cut by an obstacle */
   if (ice->alpha_cc[beyond] > advect_full && ice->kind[axis * g->size + face] == FACE_INNER)
     return ice->vel_cc[beyond * g->dim + d] - own;
   if (ice->kind[axis * g->size + face] != FACE_CLOSED) return NAN;
@@ -121,8 +122,8 @@ static int parts_of_step(const struct sim *sim, const struct ice *ice, double dt
     FOR_BOX_SERIAL(g, faces, f)
     {
       long   q = axis * g->size + f, from = ice->carried_fc[q] > 0 ? f - g->stride[axis] : f;
-      double share = dt * fabs(ice->carried_fc[q]) / (g->h * ice->porosity_cc[from]);
-      if (ice->porosity_cc[from] > 0) most = fmax(most, share);
+      double room = ice->porosity_cc[from] * ice->open_cc[from], share = dt * fabs(ice->carried_fc[q]) / (g->h * room);
+      if (room > 0) most = fmax(most, share);
     }
   }
   return most > courant ? (int)ceil(most / courant) : 1;
@@ -134,7 +135,7 @@ static void open_rooms(struct sim *sim, struct ice *ice)
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
   memset(ice->pore_cc, 0, (size_t)g->size * sizeof *ice->pore_cc);
-  FOR_BOX(g, cells, c) ice->pore_cc[c] = ice->porosity_cc[c];
+  FOR_BOX(g, cells, c) ice->pore_cc[c] = ice->porosity_cc[c] * ice->open_cc[c];
   grid_fill_periodic(g, 1, ice->pore_cc);
   for (int side = 0; side < 2 * g->dim; side++) {
     int        axis = side / 2, high = side % 2;
@@ -186,5 +187,6 @@ enum status ice_advect(struct sim *sim, double dt)
     }
   }
   ice_end_forecast(sim, ice, dt);
+  ice->now.change = ice_fastest_change(sim, ice, sim->t + dt);
   return OK;
 }

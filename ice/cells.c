@@ -5,6 +5,14 @@
 
 #include <math.h>
 
+/* Share of a cell that the faces of axis d move: where an obstacle cuts it no less than they span, or a cell with
+ * little room would be flung about. */
+static double moved_share(const struct grid *g, const struct ice *ice, long c, int d)
+{
+  const double *open = ice->open_fc + d * g->size;
+  return fmax(ice->open_cc[c], 0.5 * (open[c] + open[c + g->stride[d]]));
+}
+
 /* each face hands half of its impulse n rho V du to each of its cells: nothing is lost between them */
 static void move_cells(struct sim *sim, struct ice *ice)
 {
@@ -19,10 +27,10 @@ static void move_cells(struct sim *sim, struct ice *ice)
       for (int high = 0; high < 2; high++) {
         long f = c + high * g->stride[d], q = d * g->size + f;
         if (ice_face_active(ice->kind[q]))
-          impulse += half * ice->porosity_fc[q] * ice_face_density(ice, f - g->stride[d], f) *
+          impulse += half * ice->open_fc[q] * ice->porosity_fc[q] * ice_face_density(ice, f - g->stride[d], f) *
                      (ice->u_fc[q] - ice->u_old_fc[q]);
       }
-      ice->vel_cc[c * g->dim + d] += impulse / ice->mass_cc[c];
+      ice->vel_cc[c * g->dim + d] += impulse * ice->open_cc[c] / (ice->mass_cc[c] * moved_share(g, ice, c, d));
     }
   }
 }
@@ -36,12 +44,24 @@ static double loose_change(const struct sim *sim, const struct ice *ice, long c,
   for (int high = 0; high < 2; high++) {
     long   q = d * g->size + c + high * g->stride[d];
     double change = ice->u_fc[q] - ice->u_old_fc[q];
-    sum += 0.5 * change;
+    sum += 0.5 * ice->open_fc[q] * change;
     if (ice->kind[q] != FACE_SURFACE) continue;
     with_pressure += change;
     pressed++;
   }
-  return pressed > 0 && !(ice->wet_cc[c] > 0) ? with_pressure / pressed : sum;
+  return pressed > 0 && !(ice->wet_cc[c] > 0) ? with_pressure / pressed : sum / moved_share(g, ice, c, d);
+}
+
+/* what falls lands: nothing without a pressure moves into a closed face */
+static void land(struct sim *sim, struct ice *ice, long c)
+{
+  const struct grid *g = &sim->grid;
+  for (int d = 0; d < g->dim; d++) {
+    double              *vel = &ice->vel_cc[c * g->dim + d];
+    const unsigned char *kind = ice->kind + d * g->size;
+    if (kind[c] == FACE_CLOSED) *vel = fmax(0, *vel);
+    if (kind[c + g->stride[d]] == FACE_CLOSED) *vel = fmin(0, *vel);
+  }
 }
 
 /* cells full of liquid take impulses, others the mean change of their faces */
@@ -50,8 +70,12 @@ static void move_loose_cells(struct sim *sim, struct ice *ice)
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
   FOR_BOX(g, cells, c)
-  if (ice->mass_cc[c] > 0 && (!(ice->wet_cc[c] > 0) || ice_has_surface(g, ice, c)))
+  {
+    bool wet = ice->wet_cc[c] > 0;
+    if (!(ice->mass_cc[c] > 0) || (wet && !ice_has_surface(g, ice, c))) continue;
     for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] += loose_change(sim, ice, c, d);
+    if (!wet) land(sim, ice, c);
+  }
 }
 
 /* mass through a face in this step, kg, upwards; a surface only rises or falls with its cell */

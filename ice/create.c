@@ -1,12 +1,12 @@
 /* Where the liquid is at the start, its pressure, and what every face is. theory 4.1 */
 #include "ice/heat.h"
+#include "ice/obstacles.h"
 #include "ice/shock.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "coupling/coupling.h"
 #include "eos/eos.h"
-#include "ice/shares.h"
 #include "mpm/at_rest.h"
 #include "mpm/mpm.h"
 
@@ -20,6 +20,15 @@ static double density_at(const struct sim *sim, const struct ice *ice, long c, d
   return rho;
 }
 
+/* share of what obstacles leave open of a cell that lies in the fluid's region */
+static double share_of_room(const struct sim *sim, const struct ice *ice, const double x[3])
+{
+  struct places region = places_of(&sim->scene->fluid.region);
+  double        slice[SHARE_PARTS];
+  if (!ice->obstacles) return share_inside(&sim->grid, &region, x, -1);
+  return share_left(&sim->grid, &ice->obstacles->places, &region, x, 0, slice);
+}
+
 static void fill_cells(struct sim *sim, struct ice *ice)
 {
   struct box cells = grid_cells(&sim->grid);
@@ -28,9 +37,10 @@ static void fill_cells(struct sim *sim, struct ice *ice)
   {
     double x[3];
     grid_centre(&sim->grid, c, x);
-    double share = share_inside(&sim->grid, &sim->scene->fluid.region, x, -1);
-    if (share <= (ice->advects ? 0 : 0.5)) continue;
-    ice->wet_cc[c] = share > 0.5;
+    double share = share_of_room(sim, ice, x);
+    if (!(ice->open_cc[c] > 0) || share <= (ice->advects ? 0 : 0.5)) continue;
+    if (ice->advects) ice->alpha_cc[c] = share;
+    ice->wet_cc[c] = (ice->advects ? ice_level(ice, c) : share) > 0.5;
     ice->P_cc[c] = function_value(&sim->scene->fluid.pressure, x, 0);
     ice->mass_cc[c] = share; /* becomes a mass when the pressure is known */
     for (int d = 0; d < dim; d++) ice->vel_cc[c * dim + d] = function_value(&sim->scene->fluid.velocity[d], x, 0);
@@ -51,6 +61,7 @@ static enum face_kind classify(const struct sim *sim, const struct ice *ice, int
   int                place[3], wet = (ice->wet_cc[f] > 0) + (ice->wet_cc[f - g->stride[axis]] > 0);
   grid_place(g, f, place);
   bool low = place[axis] == 0, high = place[axis] == g->n[axis];
+  if (!(ice->open_fc[axis * g->size + f] > 0)) return FACE_CLOSED;
   if ((low || high) && !g->periodic[axis]) {
     enum face_kind kind = side_kind(&sim->scene->fluid_side[2 * axis + high]);
     enum face_kind dry = ice->advects && kind == FACE_PRESSURE ? FACE_VOID : FACE_CLOSED;
@@ -108,6 +119,16 @@ static int gravity_axis(const struct sim *sim, double *g)
   return -1;
 }
 
+static enum status weighed_pressure(const struct sim *sim, struct ice *ice, long c)
+{
+  struct rest rest;
+  double      x[3];
+  grid_centre(&sim->grid, c, x);
+  TRY(at_rest_column(sim->scene, x, &rest));
+  ice->P_cc[c] = rest.pressure;
+  return OK;
+}
+
 static enum status rest_pressure_of(const struct sim *sim, struct ice *ice, long c, int code, double g)
 {
   const struct grid *grid = &sim->grid;
@@ -123,11 +144,36 @@ static enum status rest_pressure_of(const struct sim *sim, struct ice *ice, long
     ice->P_cc[c] = pressure_under(sim, ice, c, outside, g * grid->h * ice_face_distance(sim, ice, axis, f));
     return OK;
   }
-  struct rest rest;
-  double      x[3];
-  grid_centre(grid, c, x);
-  TRY(at_rest_column(sim->scene, x, &rest));
-  ice->P_cc[c] = rest.pressure;
+  ice->P_cc[c] = NAN;
+  return ice->obstacles ? OK : weighed_pressure(sim, ice, c);
+}
+
+/* One round over cells below obstacles, which know their pressure from a neighbour beside or below them; true: some new
+ * one does. */
+static bool spread_round(const struct sim *sim, struct ice *ice, int code, double g)
+{
+  const struct grid *grid = &sim->grid;
+  struct box         cells = grid_cells(grid);
+  bool               found = false;
+  FOR_BOX_SERIAL(grid, cells, c)
+  for (int side = 0; side < 2 * grid->dim && ice->wet_cc[c] > 0 && isnan(ice->P_cc[c]); side++) {
+    int    axis = side / 2;
+    long   n = side % 2 ? c + grid->stride[axis] : c - grid->stride[axis], f = side % 2 ? n : c;
+    double weight = axis != code / 2 ? 0 : (side % 2 != code % 2 ? 1 : -1) * g * grid->h;
+    if (ice->kind[axis * grid->size + f] != FACE_INNER || isnan(ice->P_cc[n])) continue;
+    ice->P_cc[c] = pressure_below(sim, ice, c, n, weight);
+    found = true;
+  }
+  return found;
+}
+
+/* what no neighbour tells the column above does */
+static enum status spread_pressures(const struct sim *sim, struct ice *ice, int code, double g)
+{
+  struct box cells = grid_cells(&sim->grid);
+  while (spread_round(sim, ice, code, g)) continue;
+  FOR_BOX_SERIAL(&sim->grid, cells, c)
+  if (ice->wet_cc[c] > 0 && isnan(ice->P_cc[c])) TRY(weighed_pressure(sim, ice, c));
   return OK;
 }
 
@@ -145,16 +191,10 @@ static enum status rest_pressures(struct sim *sim, struct ice *ice)
     FOR_BOX_SERIAL(grid, plane, c)
     {
       if (ice->wet_cc[c] > 0 && code >= 0) TRY(rest_pressure_of(sim, ice, c, code, g));
-      if (ice->wet_cc[c] > 0 && code < 0) {
-        struct rest rest;
-        double      x[3];
-        grid_centre(grid, c, x);
-        TRY(at_rest_column(sim->scene, x, &rest));
-        ice->P_cc[c] = rest.pressure;
-      }
+      if (ice->wet_cc[c] > 0 && code < 0) TRY(weighed_pressure(sim, ice, c));
     }
   }
-  return OK;
+  return ice->obstacles && code >= 0 ? spread_pressures(sim, ice, code, g) : OK;
 }
 
 /* shares become masses; densities serve the surface distances until the first step computes them */
@@ -165,7 +205,7 @@ static void weigh_cells(struct sim *sim, struct ice *ice, bool with_pressure)
   FOR_BOX_SERIAL(&sim->grid, cells, c)
   if (ice->mass_cc[c] > 0) {
     double rho = density_at(sim, ice, c, with_pressure ? ice->P_cc[c] : 0), old = ice->rho_cc[c];
-    ice->mass_cc[c] *= with_pressure ? rho / old : rho * V * ice->porosity_cc[c];
+    ice->mass_cc[c] *= with_pressure ? rho / old : rho * V * ice->porosity_cc[c] * ice->open_cc[c];
     ice->rho_cc[c] = rho;
   }
 }
@@ -185,17 +225,10 @@ static void start_fluxes(struct sim *sim, struct ice *ice)
       if (!ice_face_active(ice->kind[q])) continue;
       double u =
           (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
-      ice->water_fc[q] = ice->flux_fc[q] = ice->porosity_fc[q] * u;
+      ice->water_fc[q] = ice->flux_fc[q] = ice->porosity_fc[q] * ice->open_fc[q] * u;
       ice->now.speed = fmax(ice->now.speed, fabs(u));
     }
   }
-}
-
-/* distances to the surface need the saturation, before there is a density */
-static void saturate_at_start(struct sim *sim, struct ice *ice)
-{
-  struct box cells = grid_cells(&sim->grid);
-  FOR_BOX(&sim->grid, cells, c) ice->alpha_cc[c] = ice->mass_cc[c];
 }
 
 /* Distance to an oblique or curved surface: what its true place on the way to the next centre has beyond the fill of
@@ -213,8 +246,9 @@ static enum status measure_rim(struct sim *sim, struct ice *ice)
       long   c = upper ? f : f - g->stride[axis];
       if (ice->kind[axis * g->size + f] != FACE_SURFACE) continue;
       grid_centre(g, c, x);
-      double way = share_way_out(g, &sim->scene->fluid.region, x, axis, upper ? -1 : 1, farthest);
-      double beyond = way - (ice->mass_cc[c] - 0.5);
+      struct places region = places_of(&sim->scene->fluid.region);
+      double        way = share_way_out(g, &region, x, axis, upper ? -1 : 1, farthest);
+      double        beyond = way - (ice->mass_cc[c] - 0.5);
       if (fabs(beyond) < small) continue;
       if (!ice->rim) TRY(NEW(&ice->rim, g->size * g->dim));
       ice->rim[axis * g->size + f] = beyond;
@@ -287,9 +321,10 @@ enum status ice_create(struct sim *sim, void *state)
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
+  ice->open_cc = ice->open_fc = ice->one;
+  TRY(obstacles_create(sim, ice));
   if (ice->T_cc) TRY(ice_heat_create(sim, ice));
   fill_cells(sim, ice);
-  if (ice->advects) saturate_at_start(sim, ice);
   if (c) mark_extent(sim);
   if (c) mark_reach(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
@@ -301,6 +336,7 @@ enum status ice_create(struct sim *sim, void *state)
   start_fluxes(sim, ice);
   if (ice->params->shocks) TRY(shock_create(sim, ice));
   if (ice->forecast_cc) ice_start_forecast(sim, ice);
+  if (ice->advects) ice->now.change = ice_fastest_change(sim, ice, 0);
   static const enum linear_method method[] = {
       [SOLVER_AUTO] = LINEAR_AUTO, [SOLVER_HYPRE] = LINEAR_HYPRE, [SOLVER_DIRECT] = LINEAR_DIRECT};
   return linear_create(&sim->grid, method[sim->scene->numerics.pressure_solver], &ice->linear);

@@ -38,7 +38,7 @@ double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis,
   switch (ice->kind[axis * g->size + face]) {
   case FACE_SURFACE: {
     long low = face - g->stride[axis], c = ice->wet_cc[face] > 0 ? face : low;
-    if (ice->advects) return fmin(1, fmax(nearest_surface, ice->alpha_cc[low] + ice->alpha_cc[face] - 0.5));
+    if (ice->advects) return fmin(1, fmax(nearest_surface, ice_level(ice, low) + ice_level(ice, face) - 0.5));
     double fill = ice->mass_cc[c] / (ice->rho_cc[c] * grid_cell_volume(g)) + 1 - ice->porosity_cc[c];
     double way = fill - 0.5 + (ice->rim ? ice->rim[axis * g->size + face] : 0);
     return fmin(farthest_surface, fmax(nearest_surface, way));
@@ -99,7 +99,8 @@ enum status ice_update_properties(struct sim *sim, double dt)
     long c0 = box_row(g, &cells, r);
     fluid->eos->density(fluid->eos_params, g->n[0], ice->P_cc + c0, ice_temperature(ice, c0), ice->rho_cc + c0);
     for (long c = c0; c < c0 + g->n[0]; c++)
-      ice->defect_cc[c] = ice->wet_cc[c] > 0 ? ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * V) - 1 : 0;
+      ice->defect_cc[c] =
+          ice->wet_cc[c] > 0 ? ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * ice->open_cc[c] * V) - 1 : 0;
   }
   grid_fill_periodic(g, 1, ice->P_cc);
   grid_fill_periodic(g, 1, ice->rho_cc);
@@ -258,19 +259,18 @@ enum status ice_predict_solid(struct sim *sim, double dt)
   return OK;
 }
 
-/* m/s2: what the pressure of now, and weight, would do to the liquid at a face */
-static double fastest_change(const struct sim *sim, const struct ice *ice)
+double ice_fastest_change(const struct sim *sim, const struct ice *ice, double t)
 {
   const struct grid *g = &sim->grid;
   double             gravity[3], most = 0;
-  sim_gravity(sim, sim->t, gravity);
+  sim_gravity(sim, t, gravity);
   for (int axis = 0; axis < g->dim; axis++) {
     struct box faces = grid_faces(g, axis);
     FOR_BOX_SERIAL(g, faces, f)
     {
       if (!ice_face_active(ice->kind[axis * g->size + f])) continue;
       double change =
-          gravity[axis] - pressure_gradient(sim, ice, axis, f, sim->t) / ice_face_density(ice, f - g->stride[axis], f);
+          gravity[axis] - pressure_gradient(sim, ice, axis, f, t) / ice_face_density(ice, f - g->stride[axis], f);
       most = fmax(most, fabs(change));
     }
   }
@@ -284,7 +284,7 @@ double ice_dt_limit(const struct sim *sim)
   double gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
-  if (ice->advects || ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / fastest_change(sim, ice)));
+  if (ice->advects || ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / ice->now.change));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
 }
 

@@ -8,7 +8,7 @@
 
 static bool is_full(const struct grid *g, const struct ice *ice, long c)
 {
-  return ice->alpha_cc[c] > advect_full && !ice_has_surface(g, ice, c);
+  return ice->alpha_cc[c] > advect_full && ice->open_cc[c] >= 1 && !ice_has_surface(g, ice, c);
 }
 
 /* change of velocity component d across a face, upwards, that its flow carries into the cells beside it; nothing comes

@@ -26,6 +26,13 @@ struct ice_params {
   double defect_tolerance; /* volume that the defect's solve may leave, over a cell's */
 };
 
+struct obstacles; /* ice/obstacles.h */
+
+/* where an obstacle is */
+struct body_place {
+  double present, moved[3]; /* 1: it is there; m since the start */
+};
+
 struct ice {
 #define FIELD FIELD_MEMBER
 #include "ice/fields.def"
@@ -37,17 +44,22 @@ struct ice {
   double                  *rim; /* [dim][size] h: a surface's distance beyond the fill's; NULL: none has */
   double                  *one; /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
-  bool                     skeleton, moves; /* there is a skeleton; it moves */
-  bool                     advects;         /* params->advection, in scenes without params->shocks */
-  bool                     surface;         /* some face is FACE_SURFACE */
-  bool                     singular;        /* incompressible and closed: pressure up to a constant */
+  const double *open_cc, *open_fc;   /* share that obstacles leave open of a cell at the start of the step, of a
+                                        face at its end */
+  struct obstacles *obstacles;       /* NULL: none stands in the liquid */
+  bool              skeleton, moves; /* there is a skeleton; it moves */
+  bool              advects;         /* params->advection, in scenes without params->shocks */
+  bool              surface;         /* some face is FACE_SURFACE */
+  bool              singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
-    double speed;                  /* m/s, fastest fluid of the last step */
-    double mass_out;               /* kg through open sides, net, since the start */
-    double squeeze;                /* 1/s, fastest change of volume of the last step; with params->shocks */
-    double heat_out;               /* J that went with it */
-    double viscosity;              /* m2/s, largest with eddies */
-    double defect_rms, defect_max; /* of the last step, over the pore volume */
+    double speed;     /* m/s, fastest fluid of the last step */
+    double change;    /* m/s2, fastest change that pressure and weight now give a face; with a surface that moves */
+    double mass_out;  /* kg through open sides, net, since the start */
+    double squeeze;   /* 1/s, fastest change of volume of the last step; with params->shocks */
+    double heat_out;  /* J that went with it */
+    double viscosity; /* m2/s, largest with eddies */
+    double defect_rms, defect_max;                                    /* of the last step, over the pore volume */
+    struct body_place obstacle[MAX_OBSTACLES], before[MAX_OBSTACLES]; /* now, and a step ago */
   } now;
 };
 
@@ -69,6 +81,13 @@ static inline bool ice_face_active(enum face_kind kind)
 
 /** Whether a wet cell has a surface: such a cell is only filled more or less, which is no volume defect. */
 bool ice_has_surface(const struct grid *g, const struct ice *ice, long cell);
+/** How high the liquid stands in a cell, as a share: its saturation, and where an obstacle cuts the cell what that
+ * makes of the height of what is left, so that still water is level there. */
+double ice_level(const struct ice *ice, long cell);
+/** Growth of the room that walls which move leave a cell in this step, over a cell's volume, 1/s. */
+double      ice_wall_rate(const struct ice *ice, long cell, double dt);
+enum status ice_move_obstacles(struct sim *sim, double dt);
+double      ice_obstacles_dt(const struct sim *sim);
 /** Distance between the pressures of a face, in h: 1 between cells, to the surface or the side else. */
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face);
 /** Pressure beyond a face where there is no wet cell: the side's at time t, or zero at a surface, Pa. */
@@ -82,6 +101,8 @@ double ice_face_forecast(const struct sim *sim, const struct ice *ice, int axis,
 /** Copies owned values of a face field into the ghosts of periodic axes: the nodes of a seam have faces on both sides.
  */
 void ice_fill_faces(const struct sim *sim, double *field);
+/** m/s2: what the pressure of now, and weight at time t, would do to the liquid at a face, at most. */
+double ice_fastest_change(const struct sim *sim, const struct ice *ice, double t);
 /** h^(dim-1), m2. */
 double ice_face_area(const struct grid *g);
 /** Mean density of the wet cells of a face, which is the harmonic mean of specific volumes M(45): hydrostatics stay

@@ -1,6 +1,7 @@
 /* Fluid path: one liquid in cells with an implicit pressure. Its stages, when each is needed, its fields. Read this
  * first. */
 #include "ice/heat.h"
+#include "ice/obstacles.h"
 #include "ice/shock.h"
 
 #include "core/memory.h"
@@ -44,6 +45,9 @@ static const struct field fields[] = {
 };
 
 static const struct stage stages[] = {
+    {"ice.move_obstacles", SLOT_volume_fractions, "mass_cc vel_cc P_cc", "mass_cc vel_cc P_cc", "4.14",
+     "only when an obstacle in the liquid moves, comes or goes", obstacles_change, ice_move_obstacles,
+     ice_obstacles_dt},
     {"ice.update_properties", SLOT_volume_fractions, "P_cc T_cc? mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1",
      "always", NULL, ice_update_properties, NULL},
     {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
@@ -125,6 +129,7 @@ static void destroy(void *state)
   linear_destroy(&ice->linear);
   memory_free(&ice->kind);
   memory_free(&ice->rim);
+  obstacles_destroy(ice);
   plic_destroy(&ice->plic);
   memory_free(&ice->one);
 }
@@ -145,7 +150,7 @@ static void measure(const struct sim *sim, struct ledger *l)
     fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
     l->v[LEDGER_mass_fluid] += m;
     if (!ice->params->shocks)
-      l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * V;
+      l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * ice->open_cc[c] * V;
     for (int d = 0; d < g->dim; d++) {
       double v = ice->vel_cc[c * g->dim + d];
       l->v[LEDGER_momentum_x + d] += m * v;

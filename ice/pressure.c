@@ -36,14 +36,14 @@ static void face_entries(struct sim *sim, struct ice *ice, int axis, double dt)
   FOR_BOX(g, faces, i)
   {
     long   q = base + i;
-    double n = ice->porosity_fc[q], predicted = 0;
+    double n = ice->porosity_fc[q], open = ice->open_fc[q], predicted = 0;
     ice->coupling_fc[q] = 0;
     if (ice->kind[q] == FACE_INLET)
-      predicted = n * ice_inlet_velocity(sim, axis, axis, i, sim->t + dt);
+      predicted = open * n * ice_inlet_velocity(sim, axis, axis, i, sim->t + dt);
     else if (ice_face_active(ice->kind[q])) {
-      predicted = n * ice->u_fc[q] + (1 - n) * ice->s_fc[q];
-      ice->coupling_fc[q] =
-          -scale * (n * ice->u_reply_fc[q] + (1 - n) * ice->s_reply_fc[q]) / ice_face_distance(sim, ice, axis, i);
+      predicted = open * (n * ice->u_fc[q] + (1 - n) * ice->s_fc[q]);
+      ice->coupling_fc[q] = -scale * open * (n * ice->u_reply_fc[q] + (1 - n) * ice->s_reply_fc[q]) /
+                            ice_face_distance(sim, ice, axis, i);
     }
     ice->flux_fc[q] = theta * predicted + (1 - theta) * ice->flux_fc[q];
   }
@@ -60,7 +60,7 @@ static double defect_source(const struct sim *sim, const struct ice *ice, long c
 {
   if (!ice->advects && ice_has_surface(&sim->grid, ice, c)) return 0;
   double D = fmin(largest_correction, fmax(-largest_correction, ice->defect_cc[c]));
-  return ice->params->defect_share * D * ice->porosity_cc[c] * grid_cell_volume(&sim->grid) / dt;
+  return ice->params->defect_share * D * ice->porosity_cc[c] * ice->open_cc[c] * grid_cell_volume(&sim->grid) / dt;
 }
 
 /* diagonal and right-hand side; cells without a pressure are identity rows */
@@ -85,8 +85,9 @@ static void cell_entries(struct sim *sim, struct ice *ice, double dt)
       in += area * (ice->flux_fc[low] - ice->flux_fc[high]);
       sum -= ice->coupling_fc[low] + ice->coupling_fc[high];
     }
-    ice->diagonal_cc[c] = ice->porosity_cc[c] * kappa * V / dt + sum;
-    ice->rhs_cc[c] = in + (is_clear(ice, c) ? defect_source(sim, ice, c, dt) : 0);
+    ice->diagonal_cc[c] = ice->porosity_cc[c] * ice->open_cc[c] * kappa * V / dt + sum;
+    if (ice->diagonal_cc[c] == 0) ice->diagonal_cc[c] = 1; /* incompressible, shut in by obstacles */
+    ice->rhs_cc[c] = in - ice_wall_rate(ice, c, dt) * V + (is_clear(ice, c) ? defect_source(sim, ice, c, dt) : 0);
   }
 }
 
@@ -153,18 +154,18 @@ static void correct_axis(struct sim *sim, struct ice *ice, int axis, double dt)
   FOR_BOX(g, faces, i)
   {
     long   q = axis * g->size + i;
-    double n = ice->porosity_fc[q], water = 0;
+    double n = ice->porosity_fc[q], open = ice->open_fc[q], water = 0;
     if (ice_face_active(ice->kind[q])) {
       double push = theta * dt * face_gradient(sim, ice, ice->dP_cc, axis, i);
       ice->u_fc[q] -= ice->u_reply_fc[q] * push;
       ice->s_fc[q] -= ice->s_reply_fc[q] * push;
-      water = n * ice->u_fc[q];
+      water = open * n * ice->u_fc[q];
     } else if (ice->kind[q] == FACE_VOID)
-      water = n * ice->u_fc[q];
+      water = open * n * ice->u_fc[q];
     else if (ice->kind[q] == FACE_INLET)
-      water = n * ice_inlet_velocity(sim, axis, axis, i, sim->t + dt);
+      water = open * n * ice_inlet_velocity(sim, axis, axis, i, sim->t + dt);
     ice->flux_fc[q] = ice->kind[q] == FACE_INLET      ? water
-                      : ice_face_active(ice->kind[q]) ? water + (1 - n) * ice->s_fc[q]
+                      : ice_face_active(ice->kind[q]) ? water + open * (1 - n) * ice->s_fc[q]
                                                       : 0;
     if (ice->trend_fc) ice->trend_fc[q] = ice->kind[q] == FACE_INNER ? water - ice->water_fc[q] : 0;
     ice->carried_fc[q] = theta * water + (1 - theta) * ice->water_fc[q];
@@ -202,6 +203,7 @@ enum status ice_move_defect(struct sim *sim, double dt)
       long q = axis * g->size + i;
       if (!ice_face_active(ice->kind[q])) continue;
       double n = ice->porosity_fc[q], reply = n * ice->u_reply_fc[q] + (1 - n) * ice->s_reply_fc[q];
+      reply *= ice->open_fc[q];
       ice->carried_fc[q] -= theta * theta * dt * reply * face_gradient(sim, ice, ice->shift_cc, axis, i);
     }
   }

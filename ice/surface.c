@@ -16,8 +16,9 @@ static void saturate(struct sim *sim, struct ice *ice)
   double             V = grid_cell_volume(g);
   FOR_BOX(g, cells, c)
   {
-    ice->alpha_cc[c] = ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * V);
-    ice->wet_cc[c] = ice->alpha_cc[c] > pressure_share;
+    double room = ice->porosity_cc[c] * ice->open_cc[c] * V;
+    ice->alpha_cc[c] = room > 0 ? ice->mass_cc[c] / (ice->rho_cc[c] * room) : 0;
+    ice->wet_cc[c] = ice_level(ice, c) > pressure_share;
     if (!(ice->wet_cc[c] > 0)) ice->P_cc[c] = 0;
   }
   grid_fill_periodic(g, 1, ice->alpha_cc);

@@ -91,6 +91,13 @@ static double stress_of_eddies(const struct sim *sim, const struct ice *ice, int
 
 /* ---- stages ---- */
 
+/* share of a face that passes stress: beside cut cells no more than they hold, which would be flung about */
+static inline double passing(const struct grid *g, const struct ice *ice, int axis, long f)
+{
+  double room = fmin(ice->open_cc[f], ice->open_cc[f - g->stride[axis]]);
+  return ice->porosity_fc[axis * g->size + f] * (ice->obstacles ? fmin(ice->open_fc[axis * g->size + f], room) : 1);
+}
+
 /* change of velocity that the stress of now gives in dt */
 static inline void push(struct sim *sim, struct ice *ice, double dt, double *change,
                         double (*stress)(const struct sim *, const struct ice *, int, long, int))
@@ -103,9 +110,9 @@ static inline void push(struct sim *sim, struct ice *ice, double dt, double *cha
   for (int d = 0; d < dim; d++) {
     double gained = 0;
     for (int axis = 0; axis < dim && ice->wet_cc[c] > 0; axis++) {
-      long          up = c + g->stride[axis];
-      const double *n = ice->porosity_fc + axis * g->size;
-      gained += n[up] * stress(sim, ice, axis, up, d) - n[c] * stress(sim, ice, axis, c, d);
+      long up = c + g->stride[axis];
+      gained += passing(g, ice, axis, up) * stress(sim, ice, axis, up, d) -
+                passing(g, ice, axis, c) * stress(sim, ice, axis, c, d);
     }
     change[c * dim + d] = gained != 0 ? impulse * gained / ice->mass_cc[c] : 0;
   }

@@ -250,14 +250,9 @@ static enum status check_obstacles(struct reader *reader, const struct scene *sc
   snprintf(reader->path, sizeof reader->path, "obstacles");
   if (scene->n_obstacles > MAX_OBSTACLES)
     return reader_fail(reader, "%d are more than %d; join some with \"union\"", scene->n_obstacles, MAX_OBSTACLES);
-  if (scene->n_obstacles > 0 && scene->n_solids == 0)
-    return reader_fail(reader, "an obstacle stops solids and there is none; remove it");
   for (int i = 0; i < scene->n_obstacles; i++) {
     snprintf(reader->path, sizeof reader->path, "obstacles.%s", scene->obstacles[i].name);
     TRY(check_obstacle(reader, scene, &scene->obstacles[i]));
-    if (scene->fluid.present && scene->obstacles[i].until > 0)
-      return reader_fail(reader, "it stops solids only and the fluid would flow through it; make it a solid of model "
-                                 "rigid, or leave the fluid out");
   }
   return OK;
 }

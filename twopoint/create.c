@@ -39,6 +39,13 @@ enum status twopoint_check(const struct scene *scene)
         ERR_INPUT,
         "fluid.bulk_modulus: the twopoint path needs a finite fluid.bulk_modulus; give one in Pa, or use the path ice");
   for (int i = 0; i < 2 * scene->dim; i++) TRY(check_side(&scene->fluid_side[i], i));
+  for (int i = 0; i < scene->n_obstacles; i++)
+    if (scene->obstacles[i].until > 0)
+      return FAIL(
+          ERR_INPUT,
+          "obstacles.%s: on the twopoint path it stops solids only and water would flow through it; use the path "
+          "ice, or leave it out",
+          scene->obstacles[i].name);
   return OK;
 }
 
