@@ -27,8 +27,8 @@ enum { DRAG_BATCH = 128 };
  * is K (U_s - U_f). porosity [n]: of the space; fill, medium_porosity [n]; slip [n] m/s: |U_s - U_f|, velocities of the
  *  space's own porosity; permeability m2 and diameter m [n]. The skeleton resists the superficial velocity
  *  porosity*slip with its own law, over its share of the space: places in series add up exactly. theory 2.2 */
-void coupling_drag(const struct scene *scene, int n, const double *porosity, const double *fill,
-                   const double *medium_porosity, const double *slip, const double *permeability,
+void coupling_drag(const struct scene *scene, const struct fluid *fluid, int n, const double *porosity,
+                   const double *fill, const double *medium_porosity, const double *slip, const double *permeability,
                    const double *diameter, double *K);
 
 /** Intrinsic permeability of a material, m2, from its hydraulic conductivity: k mu/(rho 9.81); 0: not given. */

@@ -11,8 +11,8 @@ double coupling_permeability(const struct scene *scene, const struct material *m
   return material->permeability * scene->fluid.viscosity / (scene->fluid.density * reference_gravity);
 }
 
-void coupling_drag(const struct scene *scene, int n, const double *porosity, const double *fill,
-                   const double *medium_porosity, const double *slip, const double *permeability,
+void coupling_drag(const struct scene *scene, const struct fluid *fluid, int n, const double *porosity,
+                   const double *fill, const double *medium_porosity, const double *slip, const double *permeability,
                    const double *diameter, double *K)
 {
   double             inside[DRAG_BATCH];
@@ -20,8 +20,8 @@ void coupling_drag(const struct scene *scene, int n, const double *porosity, con
                                .slip = inside,
                                .permeability = permeability,
                                .diameter = diameter,
-                               .density = scene->fluid.density,
-                               .viscosity = scene->fluid.viscosity};
+                               .density = fluid->density,
+                               .viscosity = fluid->viscosity};
   for (int i = 0; i < n; i++) inside[i] = porosity[i] * slip[i] / medium_porosity[i];
   scene->fluid.drag->coefficient(scene->fluid.drag_params, n, &medium, K);
   for (int i = 0; i < n; i++) {

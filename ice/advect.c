@@ -13,6 +13,7 @@ static const double courant = 0.5;
 bool advect_is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   long low = f - sim->grid.stride[axis];
+  if (ice->several) return ice->kind[axis * sim->grid.size + f] == FACE_INNER && advect_same(&sim->grid, ice, low, f);
   return ice->kind[axis * sim->grid.size + f] == FACE_INNER && ice->alpha_cc[f] > advect_full &&
          ice->alpha_cc[low] > advect_full && !ice_has_surface(&sim->grid, ice, f) &&
          !ice_has_surface(&sim->grid, ice, low);
@@ -32,15 +33,13 @@ static double change_towards(const struct sim *sim, const struct ice *ice, int a
   long               beyond = up ? from + g->stride[axis] : from - g->stride[axis], face = up ? beyond : from;
   double             own = ice->vel_cc[from * g->dim + d];
   if (ice->open_cc[from] < 1) return NAN; /* cut by an obstacle */
-  if (ice->alpha_cc[beyond] > advect_full && ice->kind[axis * g->size + face] == FACE_INNER)
+  if (advect_same(g, ice, from, beyond) && ice->kind[axis * g->size + face] == FACE_INNER)
     return ice->vel_cc[beyond * g->dim + d] - own;
   if (ice->kind[axis * g->size + face] != FACE_CLOSED) return NAN;
   return d == axis || sim->scene->fluid_side[2 * axis + up].kind == SIDE_NO_SLIP ? -2 * own : 0;
 }
 
-/* Component d of the velocity in the middle of the step that leaves cell `from` through its face: a limited slope, less
- * half of what pressure, weight and viscosity have changed. Bell, Colella and Glaz 1989 */
-static double leaving_velocity(const struct sim *sim, const struct ice *ice, int axis, long from, bool up, int d,
+double advect_leaving_velocity(const struct sim *sim, const struct ice *ice, int axis, long from, bool up, int d,
                                double number)
 {
   long   q = from * sim->grid.dim + d;
@@ -61,7 +60,7 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
   if (!advect_is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
   double number = advect_courant(g, ice, axis, f, from),
          coming = (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q];
-  return (liquid + coming) * ice->rho_cc[from] * leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
+  return (liquid + coming) * ice->rho_cc[from] * advect_leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
 }
 
 double advect_mass(const struct ice *ice, const struct grid *g, int axis, long f)
@@ -98,8 +97,14 @@ static void gather_mass(struct sim *sim, struct ice *ice, int axis)
   grid_fill_periodic(g, g->dim, ice->vel_cc);
 }
 
-/* net mass through the sides of the grid that this axis has, kg */
-static double mass_out(const struct sim *sim, const struct ice *ice, int axis)
+/* kg of fluid k after a sweep */
+static double mass_through(const struct ice *ice, const struct grid *g, int k, int axis, long f)
+{
+  return ice->several ? ice->passed_fc[(k * g->dim + axis) * g->size + f] : advect_mass(ice, g, axis, f);
+}
+
+/* net mass of fluid k through the sides of the grid that this axis has, kg */
+static double mass_out(const struct sim *sim, const struct ice *ice, int k, int axis)
 {
   const struct grid *g = &sim->grid;
   double             out = 0;
@@ -107,7 +112,7 @@ static double mass_out(const struct sim *sim, const struct ice *ice, int axis)
     struct box side = grid_cells(g);
     side.lo[axis] = high ? g->n[axis] : 0;
     side.hi[axis] = side.lo[axis] + 1;
-    FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * advect_mass(ice, g, axis, f);
+    FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * mass_through(ice, g, k, axis, f);
   }
   return out;
 }
@@ -129,8 +134,17 @@ static int parts_of_step(const struct sim *sim, const struct ice *ice, double dt
   return most > courant ? (int)ceil(most / courant) : 1;
 }
 
+/* behind a side lies what its cell holds, and enough of it */
+static void copy_fluid(const struct grid *g, struct ice *ice, int k, long inside, long beyond)
+{
+  long from = k * g->size + inside, to = k * g->size + beyond;
+  ice->rho_cc[to] = ice->rho_cc[from];
+  ice->alpha_cc[to] = ice->alpha_cc[from];
+  if (ice->several) ice->mass_cc[to] = ice->alpha_cc[from] * ice->rho_cc[from] * grid_cell_volume(g);
+}
+
 /* rooms of the cells; behind sides that let something through a full one, filled with what would flow in */
-static void open_rooms(struct sim *sim, struct ice *ice)
+void ice_open_rooms(struct sim *sim, struct ice *ice)
 {
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
@@ -149,8 +163,8 @@ static void open_rooms(struct sim *sim, struct ice *ice)
       enum face_kind kind = ice->kind[axis * g->size + f];
       if (kind == FACE_CLOSED) continue;
       ice->pore_cc[beyond] = 1;
-      ice->rho_cc[beyond] = ice->rho_cc[inside];
-      ice->alpha_cc[beyond] = kind == FACE_INLET || kind == FACE_PRESSURE;
+      for (int k = 0; k < ice->n_fluids; k++) copy_fluid(g, ice, k, inside, beyond);
+      if (!ice->several) ice->alpha_cc[beyond] = kind == FACE_INLET || kind == FACE_PRESSURE;
       for (int d = 0; d < g->dim; d++) ice->vel_cc[beyond * g->dim + d] = ice->vel_cc[inside * g->dim + d];
       if (ice->T_cc) ice_heat_beyond(sim, ice, side, f);
     }
@@ -170,7 +184,7 @@ enum status ice_advect(struct sim *sim, double dt)
   struct ice        *ice = ice_of(sim);
   const struct grid *g = &sim->grid;
   int                parts = parts_of_step(sim, ice, dt);
-  open_rooms(sim, ice);
+  ice_open_rooms(sim, ice);
   find_changes(sim, ice);
   ice_begin_forecast(sim, ice);
   for (int part = 0; part < parts; part++) {
@@ -179,11 +193,17 @@ enum status ice_advect(struct sim *sim, double dt)
       int  axis = plic_axis(g, sim->step + part, i);
       long base = axis * g->size;
       plic_sweep(&ice->plic, axis, dt / parts, ice->carried_fc + base, ice->alpha_cc, ice->liquid_fc + base);
-      gather_momentum(sim, ice, axis, dt / parts);
-      if (ice->T_cc) ice_heat_gather(sim, ice, axis);
-      ice->now.mass_out += mass_out(sim, ice, axis);
-      gather_mass(sim, ice, axis);
-      if (ice->T_cc) ice_heat_settle(sim, ice);
+      grid_fill_periodic(g, 1, ice->alpha_cc); /* both faces of a seam see the same */
+      if (ice->several) {
+        ice_pass_fluids(sim, ice, axis, dt / parts);
+      } else {
+        gather_momentum(sim, ice, axis, dt / parts);
+        if (ice->T_cc) ice_heat_gather(sim, ice, axis);
+        gather_mass(sim, ice, axis);
+        if (ice->T_cc) ice_heat_settle(sim, ice);
+      }
+      for (int k = 0; k < ice->n_fluids; k++)
+        *(k == 0 ? &ice->now.mass_out : &ice->now.others_out) += mass_out(sim, ice, k, axis);
     }
   }
   ice_end_forecast(sim, ice, dt);

@@ -1,5 +1,5 @@
 /* Cells take the momentum of their faces, and the flux carries mass. theory 4.6 */
-#include "ice/ice.h"
+#include "ice/advect.h"
 
 #include "core/parallel.h"
 
@@ -27,11 +27,26 @@ static void move_cells(struct sim *sim, struct ice *ice)
       for (int high = 0; high < 2; high++) {
         long f = c + high * g->stride[d], q = d * g->size + f;
         if (ice_face_active(ice->kind[q]))
-          impulse += half * ice->open_fc[q] * ice->porosity_fc[q] * ice_face_density(ice, f - g->stride[d], f) *
+          impulse += half * ice->open_fc[q] * ice->porosity_fc[q] * ice_face_density(g, ice, d, f) *
                      (ice->u_fc[q] - ice->u_old_fc[q]);
       }
       ice->vel_cc[c * g->dim + d] += impulse * ice->open_cc[c] / (ice->mass_cc[c] * moved_share(g, ice, c, d));
     }
+  }
+}
+
+/* of several fluids: every half of a cell takes the change of its face. What the faces have gained the cells have. */
+static void move_several(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  FOR_BOX(g, cells, c)
+  for (int d = 0; d < g->dim; d++) {
+    long   q = d * g->size + c, up = q + g->stride[d];
+    double lower = ice->lower_fc[q], upper = ice->mixture_cc[c] - lower;
+    double below = ice_face_active(ice->kind[q]) ? ice->u_fc[q] - ice->u_old_fc[q] : 0,
+           above = ice_face_active(ice->kind[up]) ? ice->u_fc[up] - ice->u_old_fc[up] : 0;
+    ice->vel_cc[c * g->dim + d] += (lower * below + upper * above) / ice->mixture_cc[c];
   }
 }
 
@@ -81,10 +96,10 @@ static void move_loose_cells(struct sim *sim, struct ice *ice)
 /* mass through a face in this step, kg, upwards; a surface only rises or falls with its cell */
 static double carried_mass(const struct sim *sim, const struct ice *ice, int axis, long f, double dt)
 {
-  long           q = axis * sim->grid.size + f, low = f - sim->grid.stride[axis];
+  long           q = axis * sim->grid.size + f;
   enum face_kind kind = ice->kind[q];
   if (kind != FACE_INNER && kind != FACE_PRESSURE && kind != FACE_INLET) return 0;
-  return dt * ice_face_area(&sim->grid) * ice->carried_fc[q] * ice_face_density(ice, low, f);
+  return dt * ice_face_area(&sim->grid) * ice->carried_fc[q] * ice_face_density(&sim->grid, ice, axis, f);
 }
 
 static void carry_mass(struct sim *sim, struct ice *ice, double dt)
@@ -122,8 +137,8 @@ static void remember_faces(struct sim *sim, struct ice *ice, double dt)
     {
       long   q = axis * g->size + f;
       double carried = dt * ice_face_forecast(sim, ice, axis, f);
-      ice->beyond_fc[q] =
-          ice->kind[q] == FACE_INNER ? ice->u_fc[q] - carried - ice_mean_velocity(sim, ice, axis, f) : 0;
+      bool   own = ice->kind[q] == FACE_INNER && (!ice->several || advect_same(g, ice, f - g->stride[axis], f));
+      ice->beyond_fc[q] = own ? ice->u_fc[q] - carried - ice_mean_velocity(sim, ice, axis, f) : 0;
     }
   }
 }
@@ -164,8 +179,12 @@ enum status ice_accelerate_cells(struct sim *sim, double dt)
 {
   struct ice *ice = ice_of(sim);
   TRY(watch(sim, ice));
-  move_cells(sim, ice);
-  move_loose_cells(sim, ice);
+  if (ice->several)
+    move_several(sim, ice);
+  else {
+    move_cells(sim, ice);
+    move_loose_cells(sim, ice);
+  }
   grid_fill_periodic(&sim->grid, sim->grid.dim, ice->vel_cc);
   remember_faces(sim, ice, dt);
   return OK;

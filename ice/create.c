@@ -29,7 +29,7 @@ static double share_of_room(const struct sim *sim, const struct ice *ice, const 
   return share_left(&sim->grid, &ice->obstacles->places, &region, x, 0, slice);
 }
 
-static void fill_cells(struct sim *sim, struct ice *ice)
+static enum status fill_cells(struct sim *sim, struct ice *ice)
 {
   struct box cells = grid_cells(&sim->grid);
   int        dim = sim->grid.dim;
@@ -46,6 +46,7 @@ static void fill_cells(struct sim *sim, struct ice *ice)
     for (int d = 0; d < dim; d++) ice->vel_cc[c * dim + d] = function_value(&sim->scene->fluid.velocity[d], x, 0);
   }
   grid_fill_periodic(&sim->grid, 1, ice->wet_cc);
+  return OK;
 }
 
 static enum face_kind side_kind(const struct side_condition *side)
@@ -89,7 +90,9 @@ void ice_classify_faces(struct sim *sim, struct ice *ice)
       fixed = fixed || kind == FACE_SURFACE || kind == FACE_PRESSURE;
     }
   }
-  ice->singular = !fixed && isinf(sim->scene->fluid.bulk_modulus);
+  ice->singular = !fixed;
+  for (int k = 0; k < sim->scene->n_fluids; k++)
+    ice->singular = ice->singular && isinf(scene_fluid(sim->scene, k)->bulk_modulus);
 }
 
 /* pressure of a cell whose upper neighbour (against gravity) has `above`, with the face density of the scheme: exactly
@@ -109,8 +112,7 @@ static double pressure_under(const struct sim *sim, const struct ice *ice, long 
   return P;
 }
 
-/* axis along which gravity acts, as 2 axis (downwards) or 2 axis + 1 (upwards); -1: none or oblique */
-static int gravity_axis(const struct sim *sim, double *g)
+int ice_gravity_axis(const struct sim *sim, double *g)
 {
   double up[3];
   at_rest_up(sim->scene, up, g);
@@ -182,7 +184,7 @@ static enum status rest_pressures(struct sim *sim, struct ice *ice)
 {
   const struct grid *grid = &sim->grid;
   double             g;
-  int                code = gravity_axis(sim, &g), axis = code < 0 ? 0 : code / 2, n = grid->n[axis];
+  int                code = ice_gravity_axis(sim, &g), axis = code < 0 ? 0 : code / 2, n = grid->n[axis];
   if (sim->scene->start != START_AT_REST || g == 0) return OK;
   for (int k = 0; k < n; k++) {
     struct box plane = grid_cells(grid);
@@ -207,6 +209,28 @@ static void weigh_cells(struct sim *sim, struct ice *ice, bool with_pressure)
     double rho = density_at(sim, ice, c, with_pressure ? ice->P_cc[c] : 0), old = ice->rho_cc[c];
     ice->mass_cc[c] *= with_pressure ? rho / old : rho * V * ice->porosity_cc[c] * ice->open_cc[c];
     ice->rho_cc[c] = rho;
+  }
+}
+
+/* velocity and masses of several fluids, whose shares and pressure are known */
+static void weigh_several(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             V = grid_cell_volume(g);
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    double x[3], mass = 0, momentum[3] = {0, 0, 0};
+    grid_centre(g, c, x);
+    for (int k = 0; k < ice->n_fluids; k++) {
+      const struct fluid *fluid = scene_fluid(sim->scene, k);
+      double              rho;
+      fluid->eos->density(fluid->eos_params, 1, &ice->P_cc[c], NULL, &rho);
+      double m = ice->mass_cc[k * g->size + c] = ice->alpha_cc[k * g->size + c] * rho * V * ice->porosity_cc[c];
+      mass += m;
+      for (int d = 0; d < g->dim && m > 0; d++) momentum[d] += m * function_value(&fluid->velocity[d], x, 0);
+    }
+    for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] = momentum[d] / mass;
   }
 }
 
@@ -306,6 +330,22 @@ static void mark_reach(struct sim *sim)
   FOR_BOX_SERIAL(g, nodes, n) c->fluid_reach_nc[n] = ice->advects ? 1 : c->fluid_reach_nc[n] / c->room_nc[n];
 }
 
+static enum status start_one(struct sim *sim, struct ice *ice)
+{
+  if (!ice->advects) TRY(measure_rim(sim, ice));
+  weigh_cells(sim, ice, false);
+  TRY(rest_pressures(sim, ice));
+  weigh_cells(sim, ice, true);
+  return OK;
+}
+
+static enum status start_several(struct sim *sim, struct ice *ice)
+{
+  TRY(ice_rest_several(sim, ice));
+  weigh_several(sim, ice);
+  return ice_mix_fluids(sim, 0);
+}
+
 enum status ice_create(struct sim *sim, void *state)
 {
   struct ice      *ice = state;
@@ -319,20 +359,20 @@ enum status ice_create(struct sim *sim, void *state)
   TRY(NEW(&ice->one, faces));
   if (ice->advects) TRY(plic_create(&sim->grid, ice->pore_cc, &ice->plic));
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
+  ice->n_fluids = sim->scene->n_fluids;
+  ice->several = ice->n_fluids > 1;
+  ice->filling_cc = ice->several ? ice->mixture_cc : ice->rho_cc;
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
   ice->open_cc = ice->open_fc = ice->one;
   TRY(obstacles_create(sim, ice));
   if (ice->T_cc) TRY(ice_heat_create(sim, ice));
-  fill_cells(sim, ice);
+  TRY(ice->several ? ice_fill_several(sim, ice) : fill_cells(sim, ice));
   if (c) mark_extent(sim);
   if (c) mark_reach(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
   ice_classify_faces(sim, ice);
-  if (!ice->advects) TRY(measure_rim(sim, ice));
-  weigh_cells(sim, ice, false);
-  TRY(rest_pressures(sim, ice));
-  weigh_cells(sim, ice, true);
+  TRY(ice->several ? start_several(sim, ice) : start_one(sim, ice));
   start_fluxes(sim, ice);
   if (ice->params->shocks) TRY(shock_create(sim, ice));
   if (ice->forecast_cc) ice_start_forecast(sim, ice);

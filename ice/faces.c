@@ -18,10 +18,14 @@ static const double nearest_surface = 0.05, farthest_surface = 1.5;
 
 double ice_face_area(const struct grid *g) { return grid_cell_volume(g) / g->h; }
 
-double ice_face_density(const struct ice *ice, long low, long high)
+double ice_face_density(const struct grid *g, const struct ice *ice, int axis, long high)
 {
+  long low = high - g->stride[axis];
   bool l = ice->wet_cc[low] > 0, h = ice->wet_cc[high] > 0;
-  return l && h ? 0.5 * (ice->rho_cc[low] + ice->rho_cc[high]) : ice->rho_cc[l ? low : high];
+  if (!(l && h)) return ice->filling_cc[l ? low : high];
+  if (!ice->several) return 0.5 * (ice->rho_cc[low] + ice->rho_cc[high]);
+  const double *lower = ice->lower_fc + axis * g->size;
+  return ice->mixture_cc[low] - lower[low] + lower[high];
 }
 
 bool ice_has_surface(const struct grid *g, const struct ice *ice, long c)
@@ -58,21 +62,29 @@ double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int ax
   double x[3];
   grid_place(g, face, place);
   grid_face(g, face, axis, x);
-  return function_value(&sim->scene->fluid_side[2 * axis + (place[axis] > 0)].pressure, x, t);
+  const struct side_condition *side = &sim->scene->fluid_side[2 * axis + (place[axis] > 0)];
+  return side->kind == SIDE_OPEN ? ice->ambient : function_value(&side->pressure, x, t);
 }
 
-/* fails where the pressure of a wet cell is none that the equation of state is meant for */
-static enum status check_range(const struct sim *sim, const struct ice *ice)
+static long count_outside(const struct sim *sim, const struct ice *ice, int fluid, long c0, int n)
 {
-  const struct eos *eos = sim->scene->fluid.eos;
+  const struct fluid *own = scene_fluid(sim->scene, fluid);
+  const double       *mass = ice->mass_cc + fluid * sim->grid.size;
+  long                lost = 0;
+  for (long c = c0; c < c0 + n; c++)
+    if (ice->wet_cc[c] > 0 && mass[c] > 0)
+      lost += own->eos->outside(own->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c));
+  return lost;
+}
+
+static enum status check_fluid_range(const struct sim *sim, const struct ice *ice, int fluid)
+{
+  const struct eos *eos = scene_fluid(sim->scene, fluid)->eos;
   struct box        cells = grid_cells(&sim->grid);
   long              bad = 0;
   PARALLEL_FOR
   for (long r = 0; r < box_rows(&cells); r++) {
-    long c0 = box_row(&sim->grid, &cells, r), lost = 0;
-    for (long c = c0; c < c0 + box_length(&cells); c++)
-      if (ice->wet_cc[c] > 0)
-        lost += eos->outside(sim->scene->fluid.eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c));
+    long lost = count_outside(sim, ice, fluid, box_row(&sim->grid, &cells, r), box_length(&cells));
     if (lost > 0) {
 #pragma omp atomic
       bad += lost;
@@ -83,6 +95,12 @@ static enum status check_range(const struct sim *sim, const struct ice *ice)
               "ice: %ld cells have a pressure outside the range of %s, %s, at t = %g s; give a larger one "
               "at the start and the sides, or lower numerics.dt_factor",
               bad, eos->name, eos->range, sim->t);
+}
+
+enum status ice_check_range(const struct sim *sim, const struct ice *ice)
+{
+  for (int k = 0; k < ice->n_fluids; k++) TRY(check_fluid_range(sim, ice, k));
+  return OK;
 }
 
 /* density from the carried pressure, row by row; how far mass and pressure disagree */
@@ -106,7 +124,7 @@ enum status ice_update_properties(struct sim *sim, double dt)
   grid_fill_periodic(g, 1, ice->rho_cc);
   grid_fill_periodic(g, 1, ice->mass_cc);
   grid_fill_periodic(g, g->dim, ice->vel_cc);
-  return check_range(sim, ice);
+  return ice_check_range(sim, ice);
 }
 
 /* mean of the liquid of both cells by mass, where one of them has no pressure */
@@ -119,16 +137,27 @@ static double mixed_velocity(const struct sim *sim, const struct ice *ice, int a
   return (ice->mass_cc[low] * ice->vel_cc[low * dim + axis] + ice->mass_cc[f] * ice->vel_cc[f * dim + axis]) / mass;
 }
 
+/* of several fluids: mean of both cells by the mass of the halves that the face has of them */
+static double several_velocity(const struct grid *g, const struct ice *ice, int axis, long f)
+{
+  const double *lower = ice->lower_fc + axis * g->size;
+  long          low = f - g->stride[axis];
+  double        below = ice->wet_cc[low] > 0 ? ice->porosity_cc[low] * (ice->mixture_cc[low] - lower[low]) : 0,
+         above = ice->wet_cc[f] > 0 ? ice->porosity_cc[f] * lower[f] : 0;
+  return (below * ice->vel_cc[low * g->dim + axis] + above * ice->vel_cc[f * g->dim + axis]) / (below + above);
+}
+
 double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   const struct grid *g = &sim->grid;
   long               low = f - g->stride[axis];
   double             momentum = 0, wet = ice->wet_cc[low] + ice->wet_cc[f];
+  if (ice->several) return several_velocity(g, ice, axis, f);
   for (int high = 0; high < 2; high++) {
     long c = high ? f : low;
     if (ice->wet_cc[c] > 0) momentum += ice->porosity_cc[c] * ice->rho_cc[c] * ice->vel_cc[c * g->dim + axis];
   }
-  return momentum / (wet * ice->porosity_fc[axis * g->size + f] * ice_face_density(ice, low, f));
+  return momentum / (wet * ice->porosity_fc[axis * g->size + f] * ice_face_density(g, ice, axis, f));
 }
 
 void ice_fill_faces(const struct sim *sim, double *field)
@@ -269,8 +298,7 @@ double ice_fastest_change(const struct sim *sim, const struct ice *ice, double t
     FOR_BOX_SERIAL(g, faces, f)
     {
       if (!ice_face_active(ice->kind[axis * g->size + f])) continue;
-      double change =
-          gravity[axis] - pressure_gradient(sim, ice, axis, f, t) / ice_face_density(ice, f - g->stride[axis], f);
+      double change = gravity[axis] - pressure_gradient(sim, ice, axis, f, t) / ice_face_density(g, ice, axis, f);
       most = fmax(most, fabs(change));
     }
   }
@@ -285,6 +313,7 @@ double ice_dt_limit(const struct sim *sim)
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
   if (ice->advects || ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / ice->now.change));
+  if (ice->several && g2 > 0) return fmin(limit, 0.25 * sqrt(h / sqrt(g2)));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
 }
 

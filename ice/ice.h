@@ -1,4 +1,4 @@
-/* Fluid path: one liquid in cells, implicit pressure (ICE). theory 4 */
+/* Fluid path: fluids in cells, implicit pressure (ICE). theory 4 */
 #ifndef ICE_ICE_H
 #define ICE_ICE_H
 
@@ -44,21 +44,25 @@ struct ice {
   double                  *rim; /* [dim][size] h: a surface's distance beyond the fill's; NULL: none has */
   double                  *one; /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
-  const double *open_cc, *open_fc;   /* share that obstacles leave open of a cell at the start of the step, of a
-                                        face at its end */
-  struct obstacles *obstacles;       /* NULL: none stands in the liquid */
+  const double *open_cc, *open_fc; /* share that obstacles leave open of a cell at the start of the step, of a
+                                      face at its end */
+  struct obstacles *obstacles;     /* NULL: none stands in the liquid */
+  const double     *filling_cc;    /* kg/m3: density of what fills a cell, rho_cc or of several fluids mixture_cc */
+  int               n_fluids;
+  double            ambient;         /* Pa: beyond open sides */
+  bool              several;         /* n_fluids > 1: every cell is full and has a pressure */
   bool              skeleton, moves; /* there is a skeleton; it moves */
   bool              advects;         /* params->advection, in scenes without params->shocks */
   bool              surface;         /* some face is FACE_SURFACE */
   bool              singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
-    double speed;     /* m/s, fastest fluid of the last step */
-    double change;    /* m/s2, fastest change that pressure and weight now give a face; with a surface that moves */
-    double mass_out;  /* kg through open sides, net, since the start */
-    double squeeze;   /* 1/s, fastest change of volume of the last step; with params->shocks */
-    double heat_out;  /* J that went with it */
-    double viscosity; /* m2/s, largest with eddies */
-    double defect_rms, defect_max;                                    /* of the last step, over the pore volume */
+    double speed;  /* m/s, fastest fluid of the last step */
+    double change; /* m/s2, fastest change that pressure and weight now give a face; with a surface that moves */
+    double mass_out, others_out;   /* kg through open sides, net, since the start: first fluid, others */
+    double squeeze;                /* 1/s, fastest change of volume of the last step; with params->shocks */
+    double heat_out;               /* J that went with it */
+    double viscosity;              /* m2/s, largest with eddies */
+    double defect_rms, defect_max; /* of the last step, over the pore volume */
     struct body_place obstacle[MAX_OBSTACLES], before[MAX_OBSTACLES]; /* now, and a step ago */
   } now;
 };
@@ -105,9 +109,34 @@ void ice_fill_faces(const struct sim *sim, double *field);
 double ice_fastest_change(const struct sim *sim, const struct ice *ice, double t);
 /** h^(dim-1), m2. */
 double ice_face_area(const struct grid *g);
-/** Mean density of the wet cells of a face, which is the harmonic mean of specific volumes M(45): hydrostatics stay
- * exact. */
-double ice_face_density(const struct ice *ice, long low, long high);
+/** Density of what a face has on both sides, kg/m3: mean of its wet cells, which is the harmonic mean of specific
+ * volumes M(45), so that hydrostatics stay exact; of several fluids what lies in the two halves of cells that it has.
+ */
+double ice_face_density(const struct grid *g, const struct ice *ice, int axis, long face);
+/** kg: all fluids of a cell. */
+static inline double ice_cell_mass(const struct grid *g, const struct ice *ice, long c)
+{
+  double m = ice->mass_cc[c];
+  for (int k = 1; k < ice->n_fluids; k++) m += ice->mass_cc[k * g->size + c];
+  return m;
+}
+/** The fluid that fills a cell, beside traces of others; -1: several. */
+int ice_only_fluid(const struct grid *g, const struct ice *ice, long c);
+/** Densities, shares, compressibility of a cell's fluids, volume defect; what the halves of cells hold. */
+enum status ice_mix_fluids(struct sim *sim, double dt);
+/** Share of the first fluid that lies in the lower half of a cell along an axis, over its pore volume. */
+double ice_lower_share(const struct grid *g, const struct ice *ice, int axis, long c);
+/** Fails where the pressure of a cell is none that the equations of state of its fluids are meant for. */
+enum status ice_check_range(const struct sim *sim, const struct ice *ice) MUST_CHECK;
+/** Starts and pressures at rest of several fluids. */
+enum status ice_fill_several(struct sim *sim, struct ice *ice) MUST_CHECK;
+enum status ice_rest_several(struct sim *sim, struct ice *ice) MUST_CHECK;
+/** Axis along which gravity acts, as 2 axis (downwards) or 2 axis + 1 (upwards); -1: none or oblique. g: m/s2. */
+int ice_gravity_axis(const struct sim *sim, double *g);
+/** Pore volumes of the cells, and what would flow in behind open sides. */
+void ice_open_rooms(struct sim *sim, struct ice *ice);
+/** What several fluids carry through the faces of an axis after a sweep of the first: their masses and velocities. */
+void ice_pass_fluids(struct sim *sim, struct ice *ice, int axis, double dt);
 
 /** Velocity of the fluid at a face from its wet cells: mean of their momentum over what the face holds, so that a
  * steady flux through a change of porosity stays what it is. */

@@ -45,6 +45,31 @@ static void medium_of_face(const struct coupling *c, long f, int n, const long *
   *diameter = fineness > 0 ? sqrt(bulk / fineness) : 0;
 }
 
+/* share of a fluid at a face, mean of its wet cells */
+static double face_share(const struct grid *g, const struct ice *ice, int fluid, int axis, long f)
+{
+  const double *alpha = ice->alpha_cc + fluid * g->size;
+  long          low = f - g->stride[axis];
+  bool          l = ice->wet_cc[low] > 0, h = ice->wet_cc[f] > 0;
+  return l && h ? 0.5 * (alpha[low] + alpha[f]) : l || h ? alpha[l ? low : f] : 0;
+}
+
+/* drag of several fluids with one velocity: mean of theirs by volume; drag_fc holds that of the first */
+static void mix_drag(const struct sim *sim, struct ice *ice, int axis, long f0, int n, const double *slip,
+                     const double *permeability, const double *diameter)
+{
+  const struct coupling *c = coupling_of(sim);
+  const struct grid     *g = &sim->grid;
+  long                   base = axis * g->size + f0;
+  double                 own[DRAG_BATCH];
+  for (int i = 0; i < n; i++) ice->drag_fc[base + i] *= face_share(g, ice, 0, axis, f0 + i);
+  for (int k = 1; k < ice->n_fluids; k++) {
+    coupling_drag(sim->scene, scene_fluid(sim->scene, k), n, c->porosity_fc + base, c->fill_fc + base,
+                  c->medium_porosity_fc + base, slip, permeability, diameter, own);
+    for (int i = 0; i < n; i++) ice->drag_fc[base + i] += face_share(g, ice, k, axis, f0 + i) * own[i];
+  }
+}
+
 /* a stretch of n <= DRAG_BATCH faces of one row */
 static void resist_stretch(const struct sim *sim, struct ice *ice, int axis, long f0, int n)
 {
@@ -59,8 +84,9 @@ static void resist_stretch(const struct sim *sim, struct ice *ice, int axis, lon
     slip[i] = counts ? sqrt(normal * normal + tangential_slip2(sim, ice, axis, f0 + i)) : 0;
     medium_of_face(c, f0 + i, corners, offset, &permeability[i], &diameter[i]);
   }
-  coupling_drag(sim->scene, n, c->porosity_fc + base, c->fill_fc + base, c->medium_porosity_fc + base, slip,
-                permeability, diameter, ice->drag_fc + base);
+  coupling_drag(sim->scene, &sim->scene->fluid, n, c->porosity_fc + base, c->fill_fc + base,
+                c->medium_porosity_fc + base, slip, permeability, diameter, ice->drag_fc + base);
+  if (ice->several) mix_drag(sim, ice, axis, f0, n, slip, permeability, diameter);
 }
 
 enum status ice_resist_faces(struct sim *sim, double dt)
@@ -125,8 +151,7 @@ static void eliminate_axis(struct sim *sim, struct ice *ice, int axis, double dt
     ice->u_fc[q] = ice->u_reply_fc[q] = ice->s_reply_fc[q] = 0;
     bool falls = ice->advects && ice->kind[q] == FACE_VOID;
     if (!ice_face_active(ice->kind[q]) && !falls) continue;
-    struct face f = {
-        .n = ice->porosity_fc[q], .rho = ice_face_density(ice, i - g->stride[axis], i), .s = ice->s_old_fc[q]};
+    struct face f = {.n = ice->porosity_fc[q], .rho = ice_face_density(g, ice, axis, i), .s = ice->s_old_fc[q]};
     f.u = ice->u_old_fc[q] - dt * (ice->gradP_fc[q] / f.rho - gravity[axis]);
     if (ice->skeleton) f.K = ice->drag_fc[q];
     if (ice->moves) f.rho_s = grain_density(m, c, i, corners, offset);

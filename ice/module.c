@@ -1,4 +1,4 @@
-/* Fluid path: one liquid in cells with an implicit pressure. Its stages, when each is needed, its fields. Read this
+/* Fluid path: fluids in cells with an implicit pressure. Its stages, when each is needed, its fields. Read this
  * first. */
 #include "ice/heat.h"
 #include "ice/obstacles.h"
@@ -26,14 +26,22 @@ static bool shocks(const struct scene *sc)
 static bool calm(const struct scene *sc) { return !shocks(sc); }
 static bool cold_shocks(const struct scene *sc) { return shocks(sc) && !warm(sc); }
 static bool warm_shocks(const struct scene *sc) { return shocks(sc) && warm(sc); }
-static bool carries_cold(const struct scene *sc) { return advects(sc) && !warm(sc); }
-static bool carries_warm(const struct scene *sc) { return advects(sc) && warm(sc); }
+static bool several(const struct scene *sc) { return sc->n_fluids > 1 && advects(sc); }
+static bool alone(const struct scene *sc) { return !several(sc); }
+static bool one_advects(const struct scene *sc) { return advects(sc) && alone(sc); }
+static bool carries_cold(const struct scene *sc) { return one_advects(sc) && !warm(sc); }
+static bool carries_warm(const struct scene *sc) { return one_advects(sc) && warm(sc); }
 static bool turbulent(const struct scene *sc)
 {
   const struct ice_params *params = scene_module_params(sc, &module_ice);
   return advects(sc) && params->smagorinsky > 0;
 }
-static bool viscous(const struct scene *sc) { return advects(sc) && (sc->fluid.viscosity > 0 || turbulent(sc)); }
+static bool viscous(const struct scene *sc)
+{
+  bool any = turbulent(sc);
+  for (int k = 0; k < sc->n_fluids; k++) any = any || scene_fluid(sc, k)->viscosity > 0;
+  return advects(sc) && any;
+}
 static bool no_trend(const struct scene *sc) { return !advects(sc); }
 static bool rests(const struct scene *sc) { return !advects(sc) && !shocks(sc); }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
@@ -49,9 +57,12 @@ static const struct stage stages[] = {
      "only when an obstacle in the liquid moves, comes or goes", obstacles_change, ice_move_obstacles,
      ice_obstacles_dt},
     {"ice.update_properties", SLOT_volume_fractions, "P_cc T_cc? mass_cc wet_cc vel_cc", "rho_cc defect_cc", "4.1",
-     "always", NULL, ice_update_properties, NULL},
+     "only with one fluid", alone, ice_update_properties, NULL},
+    {"ice.mix_fluids", SLOT_volume_fractions, "P_cc mass_cc wet_cc vel_cc",
+     "rho_cc alpha_cc mixture_cc kappa_cc defect_cc lower_fc vel_start_cc pore_cc", "4.15", "only with several fluids",
+     several, ice_mix_fluids, NULL},
     {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
-     "only with numerics.ice.advection", advects, ice_find_surface, NULL},
+     "only with numerics.ice.advection and one fluid", one_advects, ice_find_surface, NULL},
     {"ice.find_sound", SLOT_volume_fractions, "P_cc T_cc?", "sound_cc", "4.13", "only with numerics.ice.shocks", shocks,
      ice_find_sound, NULL},
     {"ice.measure_eddies", SLOT_volume_fractions, "wet_cc rho_cc vel_cc", "mu_cc", "4.11",
@@ -87,10 +98,10 @@ static const struct stage stages[] = {
      "only with numerics.ice.advection and a viscosity", viscous, ice_centre_diffusion, NULL},
     {"ice.advect", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc",
      "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc forecast_cc", "4.10",
-     "only with numerics.ice.advection, no energy", carries_cold, ice_advect, NULL},
+     "only with numerics.ice.advection, one fluid, no energy", carries_cold, ice_advect, NULL},
     {"ice.advect_with_heat", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc T_cc",
      "pore_cc liquid_fc momentum_cc warmth_cc alpha_cc mass_cc vel_cc T_cc forecast_cc", "4.12",
-     "only with numerics.ice.advection and energy", carries_warm, ice_advect, NULL},
+     "only with numerics.ice.advection, one fluid and energy", carries_warm, ice_advect, NULL},
     {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc", "press_fc vel_cc", "4.13",
      "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
     {"ice.push_shock_with_energy", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc T_cc",
@@ -102,6 +113,9 @@ static const struct stage stages[] = {
     {"ice.carry_shock_with_energy", SLOT_cells, "carried_fc rho_cc mass_cc vel_cc energy_cc T_cc",
      "room_cc dense_cc inner_cc flat_cc mass_fc momentum_fc energy_fc mass_cc vel_cc rho_cc T_cc P_cc", "4.13",
      "only with numerics.ice.shocks and energy", warm_shocks, ice_carry_shock, NULL},
+    {"ice.advect_fluids", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mixture_cc mass_cc vel_cc",
+     "pore_cc liquid_fc passed_fc momentum_cc alpha_cc mass_cc vel_cc forecast_cc", "4.15", "only with several fluids",
+     several, ice_advect, NULL},
     {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
      "only when a solid moves", moving, ice_push_solid, NULL},
 };
@@ -134,23 +148,32 @@ static void destroy(void *state)
   memory_free(&ice->one);
 }
 
-static void measure(const struct sim *sim, struct ledger *l)
+/* J: what compression of a cell's fluid k has stored, to the second order from the reference pressure; one liquid
+ * counts from zero pressure and fills the cell */
+static double compression(const struct sim *sim, const struct ice *ice, int k, long c)
 {
-  const struct ice   *ice = ice_of(sim);
-  const struct grid  *g = &sim->grid;
-  const struct fluid *fluid = &sim->scene->fluid;
-  struct box          cells = grid_cells(g);
-  double              gravity[3], V = grid_cell_volume(g);
+  const struct fluid *fluid = scene_fluid(sim->scene, k);
+  double              kappa, rho, P_ref = 0, P = ice->P_cc[c];
+  fluid->eos->compressibility(fluid->eos_params, 1, &P, ice_temperature(ice, c), &kappa);
+  if (!ice->several) return 0.5 * kappa * P * P * ice->porosity_cc[c] * ice->open_cc[c] * grid_cell_volume(&sim->grid);
+  fluid->eos->density(fluid->eos_params, 1, &P, NULL, &rho);
+  fluid->eos->pressure(fluid->eos_params, 1, &fluid->density, NULL, &P_ref);
+  return 0.5 * kappa * (P - P_ref) * (P - P_ref) * ice->mass_cc[k * sim->grid.size + c] / rho;
+}
+
+static void measure_fluid(const struct sim *sim, const struct ice *ice, int k, struct ledger *l)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             gravity[3];
   sim_gravity(sim, sim->t, gravity);
   FOR_BOX_SERIAL(g, cells, c)
   {
-    double x[3], m = ice->mass_cc[c], kappa;
-    if (!(m > 0)) continue;
+    double x[3], m = ice->mass_cc[k * g->size + c];
+    if (m == 0) continue;
     grid_centre(g, c, x);
-    fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
-    l->v[LEDGER_mass_fluid] += m;
-    if (!ice->params->shocks)
-      l->v[LEDGER_compression] += 0.5 * kappa * ice->P_cc[c] * ice->P_cc[c] * ice->porosity_cc[c] * ice->open_cc[c] * V;
+    l->v[k == 0 ? LEDGER_mass_fluid : LEDGER_mass_others] += m;
+    if (!ice->params->shocks) l->v[LEDGER_compression] += compression(sim, ice, k, c);
     for (int d = 0; d < g->dim; d++) {
       double v = ice->vel_cc[c * g->dim + d];
       l->v[LEDGER_momentum_x + d] += m * v;
@@ -158,9 +181,16 @@ static void measure(const struct sim *sim, struct ledger *l)
       l->v[LEDGER_potential] -= m * gravity[d] * x[d];
     }
   }
+}
+
+static void measure(const struct sim *sim, struct ledger *l)
+{
+  const struct ice *ice = ice_of(sim);
+  for (int k = 0; k < ice->n_fluids; k++) measure_fluid(sim, ice, k, l);
   if (ice->params->shocks) shock_measure(sim, l);
-  l->v[LEDGER_mass_fluid_out] += ice->now.mass_out;
   if (ice->T_cc) ice_heat_measure(sim, l);
+  l->v[LEDGER_mass_fluid_out] += ice->now.mass_out;
+  l->v[LEDGER_mass_others_out] += ice->now.others_out;
   l->v[LEDGER_volume_defect_rms] = ice->now.defect_rms;
   l->v[LEDGER_volume_defect_max] = ice->now.defect_max;
 }
@@ -168,6 +198,7 @@ static void measure(const struct sim *sim, struct ledger *l)
 const struct module module_ice = {
     .name = "ice",
     .is_fluid_path = true,
+    .several_fluids = true,
     .meets_at = AT_FACE,
     .params = params,
     .params_size = sizeof(struct ice_params),

@@ -41,6 +41,8 @@ void plic_reconstruct(const struct plic *plic, const double *fill, long cell, st
 
 /** Starts a step: which cells are filled and which are spray. Fills periodic ghosts of `fill`. */
 void plic_begin(struct plic *plic, double *fill);
+/** Whether a cell is spray since plic_begin. */
+bool plic_is_spray(const struct plic *plic, long cell);
 /** Axis of the k-th sweep, k < dim, of a step. Orders alternate. */
 int plic_axis(const struct grid *grid, long step, int k);
 /** Moves liquid along one axis. flux [size] m/s: volume flux of liquid and void through the axis' faces per area, 0 at

@@ -53,6 +53,8 @@ void plic_begin(struct plic *p, double *fill)
   }
 }
 
+bool plic_is_spray(const struct plic *p, long cell) { return p->state[cell] & SPRAY; }
+
 int plic_axis(const struct grid *g, long step, int k)
 {
   static const int order[6][3] = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {1, 0, 2}};

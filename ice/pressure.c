@@ -78,6 +78,8 @@ static void cell_entries(struct sim *sim, struct ice *ice, double dt)
     double kappa, in = 0, sum = 0;
     if (ice->sound_cc)
       kappa = 1 / (ice->rho_cc[c] * ice->sound_cc[c] * ice->sound_cc[c]);
+    else if (ice->several)
+      kappa = ice->kappa_cc[c];
     else
       fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
     for (int d = 0; d < g->dim; d++) {

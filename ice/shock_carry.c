@@ -17,9 +17,9 @@ static const double least_room = 0.1;
 
 double shock_carried_weight(const struct sim *sim, const struct ice *ice, int axis, long f, double dt)
 {
-  long q = axis * sim->grid.size + f, low = f - sim->grid.stride[axis];
+  long q = axis * sim->grid.size + f;
   if (ice->carried_fc[q] == 0) return 0;
-  return dt * ice_face_area(&sim->grid) * ice->carried_fc[q] * ice_face_density(ice, low, f);
+  return dt * ice_face_area(&sim->grid) * ice->carried_fc[q] * ice_face_density(&sim->grid, ice, axis, f);
 }
 
 /* what passes a face: kg, J; momentum is mass times velocity */

@@ -38,9 +38,9 @@ struct half {
 /* change of pressure across a face beyond what the weight of both halves makes, Pa */
 static double jump_pressure(const struct sim *sim, const struct ice *ice, int axis, long f, double weight)
 {
-  long   low = f - sim->grid.stride[axis];
   double jump = shock_jump(sim, ice, axis, f, 1, ice->P_cc);
-  return ice->kind[axis * sim->grid.size + f] == FACE_INNER ? jump - weight * ice_face_density(ice, low, f) : 0;
+  return ice->kind[axis * sim->grid.size + f] == FACE_INNER ? jump - weight * ice_face_density(&sim->grid, ice, axis, f)
+                                                            : 0;
 }
 
 static struct half half_of(const struct sim *sim, const struct ice *ice, int axis, long c, double weight)
@@ -117,7 +117,7 @@ enum status ice_predict_shock(struct sim *sim, double dt)
       long         q = axis * g->size + f;
       struct start s = start_face(sim, ice, axis, f, weight, dt);
       bool         active = ice_face_active(ice->kind[q]);
-      double       rho = active ? ice_face_density(ice, f - g->stride[axis], f) : 0;
+      double       rho = active ? ice_face_density(g, ice, axis, f) : 0;
       ice->s_old_fc[q] = 0;
       ice->u_old_fc[q] = ice->flux_fc[q] = ice->water_fc[q] = s.u;
       ice->gradP_fc[q] = active ? s.push / g->h + rho * gravity[axis] : 0;

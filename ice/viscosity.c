@@ -55,11 +55,36 @@ static double rate_in_cell(const struct sim *sim, const struct ice *ice, int axi
 
 /* ---- stress ---- */
 
+/* Pa s: mean over the fluids of a cell by volume */
+static double viscosity_at(const struct sim *sim, const struct ice *ice, long c)
+{
+  double mu = 0;
+  if (!ice->several) return sim->scene->fluid.viscosity;
+  for (int k = 0; k < ice->n_fluids; k++)
+    mu += ice->alpha_cc[k * sim->grid.size + c] * scene_fluid(sim->scene, k)->viscosity;
+  return mu;
+}
+
+/* of both sides of a face that the same shear passes */
+static double harmonic(double a, double b) { return a + b > 0 ? 2 * a * b / (a + b) : 0; }
+
 /* Component d of the force per area that the upper side of an axis' face exerts on the lower. Uniform viscosity and no
  * divergence: the transposed gradient sums up to nothing. */
 static inline double stress_of_uniform(const struct sim *sim, const struct ice *ice, int axis, long f, int d)
 {
   return sim->scene->fluid.viscosity * rate(sim, ice, axis, f, d);
+}
+
+/* the same, each fluid with its own */
+static inline double stress_of_several(const struct sim *sim, const struct ice *ice, int axis, long f, int d)
+{
+  double shear = rate(sim, ice, axis, f, d);
+  if (shear == 0) return 0;
+  long   low = f - sim->grid.stride[axis];
+  bool   l = ice->wet_cc[low] > 0, h = ice->wet_cc[f] > 0;
+  double mu =
+      l && h ? harmonic(viscosity_at(sim, ice, low), viscosity_at(sim, ice, f)) : viscosity_at(sim, ice, l ? low : f);
+  return mu * shear;
 }
 
 /* d u_d/dx_t at a face across t: mean of its cells with a pressure */
@@ -80,7 +105,7 @@ static double stress_of_eddies(const struct sim *sim, const struct ice *ice, int
 {
   const struct grid *g = &sim->grid;
   double             low = ice->mu_cc[f - g->stride[axis]], high = ice->mu_cc[f];
-  double             mu = low > 0 && high > 0 ? 0.5 * (low + high) : low + high;
+  double             mu = low > 0 && high > 0 ? (ice->several ? harmonic(low, high) : 0.5 * (low + high)) : low + high;
   double             normal = rate(sim, ice, axis, f, d), div = normal;
   if (ice->kind[axis * g->size + f] != FACE_INNER && normal == 0) return 0;
   if (d != axis) return mu * (normal + rate_along(sim, ice, axis, f, d, axis));
@@ -114,7 +139,7 @@ static inline void push(struct sim *sim, struct ice *ice, double dt, double *cha
       gained += passing(g, ice, axis, up) * stress(sim, ice, axis, up, d) -
                 passing(g, ice, axis, c) * stress(sim, ice, axis, c, d);
     }
-    change[c * dim + d] = gained != 0 ? impulse * gained / ice->mass_cc[c] : 0;
+    change[c * dim + d] = gained != 0 ? impulse * gained / ice_cell_mass(g, ice, c) : 0;
   }
 }
 
@@ -122,6 +147,8 @@ static void find_change(struct sim *sim, struct ice *ice, double dt, double *cha
 {
   if (ice->mu_cc)
     push(sim, ice, dt, change, stress_of_eddies);
+  else if (ice->several)
+    push(sim, ice, dt, change, stress_of_several);
   else
     push(sim, ice, dt, change, stress_of_uniform);
 }
@@ -151,10 +178,10 @@ enum status ice_measure_eddies(struct sim *sim, double dt)
         double twice = rate_in_cell(sim, ice, a, c, b) + rate_in_cell(sim, ice, b, c, a);
         square += 0.5 * twice * twice;
       }
-    double mu = sim->scene->fluid.viscosity + ice->rho_cc[c] * length * length * sqrt(square);
+    double mu = viscosity_at(sim, ice, c) + ice->filling_cc[c] * length * length * sqrt(square);
     ice->mu_cc[c] = ice->wet_cc[c] > 0 ? mu : 0;
   }
-  FOR_BOX_SERIAL(g, cells, c) most = fmax(most, ice->mu_cc[c] / ice->rho_cc[c]);
+  FOR_BOX_SERIAL(g, cells, c) most = fmax(most, ice->mu_cc[c] / ice->filling_cc[c]);
   ice->now.viscosity = most;
   grid_fill_periodic(g, 1, ice->mu_cc);
   return OK;
@@ -181,7 +208,10 @@ enum status ice_centre_diffusion(struct sim *sim, double dt)
 /* s: explicit diffusion in every direction */
 double ice_viscous_dt(const struct sim *sim)
 {
-  const struct fluid *fluid = &sim->scene->fluid;
-  double              nu = fmax(ice_of(sim)->now.viscosity, fluid->viscosity / fluid->density), h = sim->grid.h;
+  double h = sim->grid.h, nu = ice_of(sim)->now.viscosity;
+  for (int k = 0; k < sim->scene->n_fluids; k++) {
+    const struct fluid *fluid = scene_fluid(sim->scene, k);
+    nu = fmax(nu, (sim->scene->n_fluids > 1 ? 2 : 1) * fluid->viscosity / fluid->density); /* the mean is up to twice */
+  }
   return nu > 0 ? sim->scene->numerics.dt_factor * h * h / (2 * sim->grid.dim * nu) : INFINITY;
 }

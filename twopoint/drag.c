@@ -69,8 +69,9 @@ static void resist_stretch(const struct sim *sim, struct twopoint *w, long first
   struct stretch s;
   double         still[WATER_BATCH] = {0}, K0[WATER_BATCH], K1[WATER_BATCH];
   for (int i = 0; i < n; i++) describe_node(sim, w, first + i, i, &s);
-  coupling_drag(sim->scene, n, s.porosity, s.fill, s.medium, still, s.permeability, s.diameter, K0);
-  coupling_drag(sim->scene, n, s.porosity, s.fill, s.medium, s.slip, s.permeability, s.diameter, K1);
+  coupling_drag(sim->scene, &sim->scene->fluid, n, s.porosity, s.fill, s.medium, still, s.permeability, s.diameter, K0);
+  coupling_drag(sim->scene, &sim->scene->fluid, n, s.porosity, s.fill, s.medium, s.slip, s.permeability, s.diameter,
+                K1);
   for (int i = 0; i < n; i++)
     w->drag_nc[first + i] =
         s.volume[i] > 0 ? implicit_coefficient(s.volume[i] * K0[i], s.volume[i] * K1[i], s.slip[i], s.inverse[i], dt)

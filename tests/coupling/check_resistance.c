@@ -35,7 +35,7 @@ START_TEST(places_in_series_add_up)
       D[i] = diameter;
       length += fill[i];
     }
-    coupling_drag(run.sim->scene, N, porosity, fill, m, slip, permeability, D, K);
+    coupling_drag(run.sim->scene, &run.sim->scene->fluid, N, porosity, fill, m, slip, permeability, D, K);
     for (int i = 0; i < N; i++) drop += K[i] * slip[i] / porosity[i]; /* n grad P = K s */
     double             full[1] = {q / medium}, one[1];
     struct drag_medium whole = {

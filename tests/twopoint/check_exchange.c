@@ -82,7 +82,8 @@ START_TEST(drag_coefficient_knows_the_new_slip)
     double slip = hypot(w->water_vel_new_nc[2 * i] - w->mpm->vel_new_nc[2 * i],
                         w->water_vel_new_nc[2 * i + 1] - w->mpm->vel_new_nc[2 * i + 1]);
     double fill = c->bulk_nc[i] / c->room_nc[i], medium = 1 - c->solid_nc[i] / c->bulk_nc[i], K;
-    coupling_drag(run.sim->scene, 1, &w->porosity_nc[i], &fill, &medium, &slip, &c->permeability, &c->diameter, &K);
+    coupling_drag(run.sim->scene, &run.sim->scene->fluid, 1, &w->porosity_nc[i], &fill, &medium, &slip,
+                  &c->permeability, &c->diameter, &K);
     K *= c->room_nc[i] * fmin(1, w->water_volume_nc[i] / c->bulk_nc[i]);
     ck_assert_double_eq_tol(w->drag_nc[i], K, 1e-9 * K);
     n++;
