@@ -14,7 +14,7 @@ struct eos;
 struct drag_law;
 struct reference;
 
-enum { MAX_MODULES = 16, SIDES = 6 };
+enum { MAX_MODULES = 16, MAX_FLUIDS = 16, SIDES = 6 };
 /* sides: x_min x_max y_min y_max z_min z_max */
 enum side { X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN, Z_MAX };
 

@@ -9,8 +9,9 @@
 #include "core/scene.h"
 
 struct solver_report {
-  long   solves, iterations, fallbacks;
-  double residual_max; /* volume that the pressure solve left in a step, over a cell's volume */
+  long solves, iterations, fallbacks;
+  long equilibria, equilibrium_steps; /* pressures of cells found from the volumes of several fluids, and their steps */
+  double residual_max;                /* volume that the pressure solve left in a step, over a cell's volume */
 };
 
 struct sim {

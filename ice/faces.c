@@ -66,13 +66,16 @@ double ice_outside_pressure(const struct sim *sim, const struct ice *ice, int ax
   return side->kind == SIDE_OPEN ? ice->ambient : function_value(&side->pressure, x, t);
 }
 
+/* a fluid with less than this share of a cell may be in any state: what is left where another one came */
+static const double trace = 1e-6;
+
 static long count_outside(const struct sim *sim, const struct ice *ice, int fluid, long c0, int n)
 {
   const struct fluid *own = scene_fluid(sim->scene, fluid);
-  const double       *mass = ice->mass_cc + fluid * sim->grid.size;
+  const double       *share = ice->several ? ice->alpha_cc + fluid * sim->grid.size : NULL;
   long                lost = 0;
   for (long c = c0; c < c0 + n; c++)
-    if (ice->wet_cc[c] > 0 && mass[c] > 0)
+    if (ice->wet_cc[c] > 0 && (!share || share[c] > trace))
       lost += own->eos->outside(own->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c));
   return lost;
 }
@@ -312,7 +315,8 @@ double ice_dt_limit(const struct sim *sim)
   double gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
-  if (ice->advects || ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / ice->now.change));
+  if (ice->advects) limit = fmin(limit, sqrt(0.5 * h / ice->now.change));
+  if (ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / ice_fastest_change(sim, ice, sim->t)));
   if (ice->several && g2 > 0) return fmin(limit, 0.25 * sqrt(h / sqrt(g2)));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
 }

@@ -124,6 +124,8 @@ static inline double ice_cell_mass(const struct grid *g, const struct ice *ice, 
 int ice_only_fluid(const struct grid *g, const struct ice *ice, long c);
 /** Densities, shares, compressibility of a cell's fluids, volume defect; what the halves of cells hold. */
 enum status ice_mix_fluids(struct sim *sim, double dt);
+/** Pressures of several fluids after the volume equation. */
+void ice_advance_pressures(struct sim *sim, struct ice *ice);
 /** Share of the first fluid that lies in the lower half of a cell along an axis, over its pore volume. */
 double ice_lower_share(const struct grid *g, const struct ice *ice, int axis, long c);
 /** Fails where the pressure of a cell is none that the equations of state of its fluids are meant for. */

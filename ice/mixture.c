@@ -15,7 +15,7 @@ enum { BLOCK = 64 };
 
 /* what the fluids of a stretch of cells add up to */
 struct sums {
-  double volume[BLOCK], softness[BLOCK], mass[BLOCK]; /* m3; m3/Pa; kg */
+  double volume[BLOCK], softness[BLOCK], mass[BLOCK], softest[BLOCK]; /* m3; m3/Pa; kg; 1/Pa */
 };
 
 /* densities of fluid k, its volume in place of its share, and the sums; cells [c0, c0 + n) */
@@ -32,18 +32,20 @@ static void add_fluid(const struct sim *sim, struct ice *ice, int k, long c0, in
     sums->volume[i] += volume;
     sums->softness[i] += volume * kappa[i];
     sums->mass[i] += m;
+    if (m > 0) sums->softest[i] = fmax(sums->softest[i], kappa[i]);
   }
 }
 
 static void mix_stretch(const struct sim *sim, struct ice *ice, long c0, int n)
 {
   double      V = grid_cell_volume(&sim->grid);
-  struct sums sums = {{0}, {0}, {0}};
+  struct sums sums = {{0}, {0}, {0}, {0}};
   for (int k = 0; k < ice->n_fluids; k++) add_fluid(sim, ice, k, c0, n, &sums);
   for (int i = 0; i < n; i++) {
     double room = ice->porosity_cc[c0 + i] * V, volume = sums.volume[i];
     ice->defect_cc[c0 + i] = volume / room - 1;
     ice->mixture_cc[c0 + i] = sums.mass[i] / room;
+    ice->soft_cc[c0 + i] = sums.softest[i];
     ice->kappa_cc[c0 + i] = sums.softness[i] / volume;
     for (int k = 0; k < ice->n_fluids; k++) ice->alpha_cc[k * sim->grid.size + c0 + i] /= volume;
   }

@@ -182,7 +182,10 @@ enum status ice_correct_faces(struct sim *sim, double dt)
   struct box         cells = grid_cells(g);
   for (int axis = 0; axis < g->dim; axis++) correct_axis(sim, ice, axis, dt);
   ice_fill_faces(sim, ice->s_fc);
-  FOR_BOX(g, cells, c) ice->P_cc[c] += ice->wet_cc[c] > 0 ? ice->dP_cc[c] : 0;
+  if (ice->several)
+    ice_advance_pressures(sim, ice);
+  else
+    FOR_BOX(g, cells, c) ice->P_cc[c] += ice->wet_cc[c] > 0 ? ice->dP_cc[c] : 0;
   return OK;
 }
 

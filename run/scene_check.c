@@ -114,6 +114,8 @@ static enum status check_material(struct reader *reader, const struct scene *sce
 
 static enum status check_fluids(struct reader *reader, const struct scene *scene)
 {
+  if (scene->n_others >= MAX_FLUIDS)
+    return reader_fail(at(reader, "fluids"), "%d fluids are more than %d; leave some out", scene->n_fluids, MAX_FLUIDS);
   for (int i = 0; i < scene->n_others; i++) {
     at(reader, "fluids.%s", scene->others[i].name);
     if (!scene->fluid.present) return reader_fail(reader, "the scene has no \"fluid\", which comes first; add one");

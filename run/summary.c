@@ -83,6 +83,9 @@ static void add_quality(cJSON *root, const struct run_record *r)
   number(solver, "solves", (double)r->solves);
   number(solver, "iterations_mean", r->solves > 0 ? (double)r->iterations / (double)r->solves : 0);
   number(solver, "residual_max", r->residual_max);
+  number(solver, "equilibria", (double)r->equilibria);
+  number(solver, "equilibrium_steps_mean",
+         r->equilibria > 0 ? (double)r->equilibrium_steps / (double)r->equilibria : 0);
   cJSON *defect = cJSON_AddObjectToObject(root, "volume_defect");
   number(defect, "rms_max", r->defect_rms_max);
   number(defect, "max", r->defect_max);

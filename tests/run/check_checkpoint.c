@@ -69,6 +69,8 @@ static long gather(const struct fake_run *r, double *all)
                                         (double)s->solves,
                                         (double)s->iterations,
                                         (double)s->fallbacks,
+                                        (double)s->equilibria,
+                                        (double)s->equilibrium_steps,
                                         s->residual_max,
                                         r->sim.defect_rms_max,
                                         r->sim.defect_max};
