@@ -37,7 +37,7 @@ static void scramble(struct fake_run *r, unsigned seed)
   r->sim.dt = rand() / 13.0;
   r->sim.dt_limit = rand() / 17.0;
   r->sim.step = rand();
-  r->sim.solver = (struct solver_report){rand(), rand(), rand(), rand() / 19.0};
+  r->sim.solver = (struct solver_report){rand(), rand(), rand(), rand(), rand(), rand() / 19.0};
   r->sim.defect_rms_max = rand() / 23.0;
   r->sim.defect_max = rand() / 29.0;
 }
@@ -113,7 +113,7 @@ START_TEST(start_of_another)
   fake_create(2, &r);
   write_scene(&r, "{}");
   scramble(&r, 1);
-  long n = gather(&r, first), numbers = 2 * N_LEDGER + 10;
+  long n = gather(&r, first), numbers = 2 * N_LEDGER + 12;
   fake_ok(checkpoint_write(r.folder, &r.sim, N_ITEMS, item));
   scramble(&r, 2);
   gather(&r, second);
