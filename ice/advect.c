@@ -13,7 +13,7 @@ static const double courant = 0.5;
 bool advect_is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   long low = f - sim->grid.stride[axis];
-  if (ice->several) return ice->kind[axis * sim->grid.size + f] == FACE_INNER && advect_same(&sim->grid, ice, low, f);
+  if (ice->several) return ice->kind[axis * sim->grid.size + f] == FACE_INNER && advect_same(ice, low, f);
   return ice->kind[axis * sim->grid.size + f] == FACE_INNER && ice->alpha_cc[f] > advect_full &&
          ice->alpha_cc[low] > advect_full && !ice_has_surface(&sim->grid, ice, f) &&
          !ice_has_surface(&sim->grid, ice, low);
@@ -33,7 +33,7 @@ static double change_towards(const struct sim *sim, const struct ice *ice, int a
   long               beyond = up ? from + g->stride[axis] : from - g->stride[axis], face = up ? beyond : from;
   double             own = ice->vel_cc[from * g->dim + d];
   if (ice->open_cc[from] < 1) return NAN; /* cut by an obstacle */
-  if (advect_same(g, ice, from, beyond) && ice->kind[axis * g->size + face] == FACE_INNER)
+  if (advect_same(ice, from, beyond) && ice->kind[axis * g->size + face] == FACE_INNER)
     return ice->vel_cc[beyond * g->dim + d] - own;
   if (ice->kind[axis * g->size + face] != FACE_CLOSED) return NAN;
   return d == axis || sim->scene->fluid_side[2 * axis + up].kind == SIDE_NO_SLIP ? -2 * own : 0;

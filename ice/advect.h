@@ -26,18 +26,18 @@ double advect_leaving_velocity(const struct sim *sim, const struct ice *ice, int
 static inline double advect_limited(double a, double b) { return a * b > 0 ? 2 * a * b / (a + b) : 0; }
 
 /** Whether a cell and its neighbour are full of the same fluid. */
-static inline bool advect_same(const struct grid *g, const struct ice *ice, long c, long neighbour)
+static inline bool advect_same(const struct ice *ice, long c, long neighbour)
 {
   if (!ice->several) return ice->alpha_cc[neighbour] > advect_full;
-  int fluid = ice_only_fluid(g, ice, c);
-  return fluid >= 0 && fluid == ice_only_fluid(g, ice, neighbour);
+  int fluid = ice_only_fluid(ice, c);
+  return fluid >= 0 && fluid == ice_only_fluid(ice, neighbour);
 }
 
 /** Limited change across cell c along an axis; n: components per cell of q; 0 beside cells that are not full. */
 static inline double advect_slope(const struct grid *g, const struct ice *ice, int axis, long c, int n, const double *q)
 {
   long before = c - g->stride[axis], after = c + g->stride[axis];
-  bool known = advect_same(g, ice, c, before) && advect_same(g, ice, c, after);
+  bool known = advect_same(ice, c, before) && advect_same(ice, c, after);
   return known ? advect_limited(q[c * n] - q[before * n], q[after * n] - q[c * n]) : 0;
 }
 

@@ -137,7 +137,7 @@ static void remember_faces(struct sim *sim, struct ice *ice, double dt)
     {
       long   q = axis * g->size + f;
       double carried = dt * ice_face_forecast(sim, ice, axis, f);
-      bool   own = ice->kind[q] == FACE_INNER && (!ice->several || advect_same(g, ice, f - g->stride[axis], f));
+      bool   own = ice->kind[q] == FACE_INNER && (!ice->several || advect_same(ice, f - g->stride[axis], f));
       ice->beyond_fc[q] = own ? ice->u_fc[q] - carried - ice_mean_velocity(sim, ice, axis, f) : 0;
     }
   }

@@ -361,6 +361,7 @@ enum status ice_create(struct sim *sim, void *state)
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
   ice->n_fluids = sim->scene->n_fluids;
   ice->several = ice->n_fluids > 1;
+  if (ice->several) TRY(NEW(&ice->only, sim->grid.size));
   ice->filling_cc = ice->several ? ice->mixture_cc : ice->rho_cc;
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;

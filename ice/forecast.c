@@ -8,7 +8,7 @@
 
 static bool is_full(const struct grid *g, const struct ice *ice, long c)
 {
-  if (ice->several) return ice_only_fluid(g, ice, c) >= 0;
+  if (ice->several) return ice_only_fluid(ice, c) >= 0;
   return ice->alpha_cc[c] > advect_full && ice->open_cc[c] >= 1 && !ice_has_surface(g, ice, c);
 }
 

@@ -49,12 +49,14 @@ struct ice {
   struct obstacles *obstacles;     /* NULL: none stands in the liquid */
   const double     *filling_cc;    /* kg/m3: density of what fills a cell, rho_cc or of several fluids mixture_cc */
   int               n_fluids;
-  double            ambient;         /* Pa: beyond open sides */
-  bool              several;         /* n_fluids > 1: every cell is full and has a pressure */
-  bool              skeleton, moves; /* there is a skeleton; it moves */
-  bool              advects;         /* params->advection, in scenes without params->shocks */
-  bool              surface;         /* some face is FACE_SURFACE */
-  bool              singular;        /* incompressible and closed: pressure up to a constant */
+  double            ambient; /* Pa: beyond open sides */
+  unsigned char
+      *only;    /* [size] of several fluids 1 + the one that fills a cell beside traces of others, 0: none does */
+  bool several; /* n_fluids > 1: every cell is full and has a pressure */
+  bool skeleton, moves; /* there is a skeleton; it moves */
+  bool advects;         /* params->advection, in scenes without params->shocks */
+  bool surface;         /* some face is FACE_SURFACE */
+  bool singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
     double speed;  /* m/s, fastest fluid of the last step */
     double change; /* m/s2, fastest change that pressure and weight now give a face; with a surface that moves */
@@ -121,7 +123,9 @@ static inline double ice_cell_mass(const struct grid *g, const struct ice *ice, 
   return m;
 }
 /** The fluid that fills a cell, beside traces of others; -1: several. */
-int ice_only_fluid(const struct grid *g, const struct ice *ice, long c);
+static inline int ice_only_fluid(const struct ice *ice, long c) { return ice->only[c] - 1; }
+/** Finds that fluid in every cell, ghosts included. */
+void ice_find_only(struct sim *sim, struct ice *ice);
 /** Densities, shares, compressibility of a cell's fluids, volume defect; what the halves of cells hold. */
 enum status ice_mix_fluids(struct sim *sim, double dt);
 /** Pressures of several fluids after the volume equation. */

@@ -51,12 +51,18 @@ static void mix_stretch(const struct sim *sim, struct ice *ice, long c0, int n)
   }
 }
 
-int ice_only_fluid(const struct grid *g, const struct ice *ice, long c)
+static unsigned char only_fluid(const struct grid *g, const struct ice *ice, long c)
 {
-  if (!(ice->pore_cc[c] > 0)) return -1;
-  for (int k = 0; k < ice->n_fluids; k++)
-    if (ice->alpha_cc[k * g->size + c] > full) return k;
-  return -1;
+  for (int k = 0; k < ice->n_fluids && ice->pore_cc[c] > 0; k++)
+    if (ice->alpha_cc[k * g->size + c] > full) return (unsigned char)(k + 1);
+  return 0;
+}
+
+void ice_find_only(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         all = grid_all(g);
+  FOR_BOX(g, all, c) ice->only[c] = only_fluid(g, ice, c);
 }
 
 /* whether the plane of a cell is worth looking at */
@@ -123,6 +129,7 @@ enum status ice_mix_fluids(struct sim *sim, double dt)
   grid_fill_periodic(g, g->dim, ice->vel_cc);
   ice_open_rooms(sim, ice);
   halve_cells(sim, ice);
+  ice_find_only(sim, ice);
   memcpy(ice->vel_start_cc, ice->vel_cc, (size_t)(g->size * g->dim) * sizeof(double));
   return ice_check_range(sim, ice);
 }

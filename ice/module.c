@@ -114,7 +114,7 @@ static const struct stage stages[] = {
      "room_cc dense_cc inner_cc flat_cc mass_fc momentum_fc energy_fc mass_cc vel_cc rho_cc T_cc P_cc", "4.13",
      "only with numerics.ice.shocks and energy", warm_shocks, ice_carry_shock, NULL},
     {"ice.advect_fluids", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mixture_cc mass_cc vel_cc",
-     "pore_cc liquid_fc passed_fc momentum_cc alpha_cc mass_cc vel_cc forecast_cc", "4.15", "only with several fluids",
+     "pore_cc liquid_fc passed_fc through_cc alpha_cc mass_cc vel_cc forecast_cc", "4.15", "only with several fluids",
      several, ice_advect, NULL},
     {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
      "only when a solid moves", moving, ice_push_solid, NULL},
@@ -143,6 +143,7 @@ static void destroy(void *state)
   linear_destroy(&ice->linear);
   memory_free(&ice->kind);
   memory_free(&ice->rim);
+  memory_free(&ice->only);
   obstacles_destroy(ice);
   plic_destroy(&ice->plic);
   memory_free(&ice->one);

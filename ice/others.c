@@ -39,43 +39,57 @@ static void pass_masses(struct sim *sim, struct ice *ice, int axis, double dt)
   }
 }
 
-/* momentum component d of several fluids through a face, kg m/s */
-static double passed_momentum(const struct sim *sim, const struct ice *ice, int axis, long f, int d, double dt)
+/* momentum that goes with the masses through a face, kg m/s */
+static void pass_momentum(const struct sim *sim, const struct ice *ice, int axis, long f, double dt, double *through)
 {
   const struct grid *g = &sim->grid;
   long               q = axis * g->size + f, from = ice->carried_fc[q] > 0 ? f - g->stride[axis] : f;
   double             V = grid_cell_volume(g), mass = 0;
   for (int k = 0; k < ice->n_fluids; k++) mass += ice->passed_fc[k * g->dim * g->size + q];
-  if (mass == 0) return 0;
-  if (ice->kind[q] == FACE_INLET) return mass * ice_inlet_velocity(sim, axis, d, f, sim->t);
-  if (!advect_is_smooth(sim, ice, axis, f)) return mass * ice->vel_cc[from * g->dim + d];
-  double number = dt * fabs(ice->carried_fc[q]) / (g->h * ice->porosity_cc[from]);
-  double coming = (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q] * ice->mixture_cc[from];
-  return (mass + coming) * advect_leaving_velocity(sim, ice, axis, from, mass > 0, d, number);
+  bool   given = ice->kind[q] == FACE_INLET, smooth = mass != 0 && advect_is_smooth(sim, ice, axis, f);
+  double number = smooth ? dt * fabs(ice->carried_fc[q]) / (g->h * ice->pore_cc[from]) : 0;
+  double coming =
+      smooth ? (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q] * ice->mixture_cc[from] : 0;
+  for (int d = 0; d < g->dim; d++) {
+    through[d] = 0;
+    if (mass == 0) continue;
+    if (given)
+      through[d] = mass * ice_inlet_velocity(sim, axis, d, f, sim->t);
+    else if (smooth)
+      through[d] = (mass + coming) * advect_leaving_velocity(sim, ice, axis, from, mass > 0, d, number);
+    else
+      through[d] = mass * ice->vel_cc[from * g->dim + d];
+  }
 }
 
-/* masses and velocities of several fluids after a sweep; momentum_cc: their momentum */
-void ice_pass_fluids(struct sim *sim, struct ice *ice, int axis, double dt)
+/* masses and velocities after a sweep */
+static void gather(struct sim *sim, struct ice *ice, int axis)
 {
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
-  long               copy = g->dim * g->size, base = axis * g->size, st = g->stride[axis];
-  pass_masses(sim, ice, axis, dt);
+  int                dim = g->dim;
+  long               copy = dim * g->size, base = axis * g->size, st = g->stride[axis];
   FOR_BOX(g, cells, c)
   {
-    double mass = ice_cell_mass(g, ice, c);
-    for (int d = 0; d < g->dim; d++)
-      ice->momentum_cc[c * g->dim + d] = mass * ice->vel_cc[c * g->dim + d] +
-                                         passed_momentum(sim, ice, axis, c, d, dt) -
-                                         passed_momentum(sim, ice, axis, c + st, d, dt);
-  }
-  FOR_BOX(g, cells, c)
-  {
+    double before = ice_cell_mass(g, ice, c);
     for (int k = 0; k < ice->n_fluids; k++)
       ice->mass_cc[k * g->size + c] += ice->passed_fc[k * copy + base + c] - ice->passed_fc[k * copy + base + c + st];
-    double mass = ice_cell_mass(g, ice, c);
-    for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] = ice->momentum_cc[c * g->dim + d] / mass;
+    double after = ice_cell_mass(g, ice, c);
+    for (int d = 0; d < dim; d++) {
+      double gained = ice->through_cc[c * dim + d] - ice->through_cc[(c + st) * dim + d];
+      ice->vel_cc[c * dim + d] = (before * ice->vel_cc[c * dim + d] + gained) / after;
+    }
   }
   for (int k = 0; k < ice->n_fluids; k++) grid_fill_periodic(g, 1, ice->mass_cc + k * g->size);
-  grid_fill_periodic(g, g->dim, ice->vel_cc);
+  grid_fill_periodic(g, dim, ice->vel_cc);
+}
+
+void ice_pass_fluids(struct sim *sim, struct ice *ice, int axis, double dt)
+{
+  const struct grid *g = &sim->grid;
+  struct box         faces = grid_faces(g, axis);
+  ice_find_only(sim, ice);
+  pass_masses(sim, ice, axis, dt);
+  FOR_BOX(g, faces, f) pass_momentum(sim, ice, axis, f, dt, ice->through_cc + f * g->dim);
+  gather(sim, ice, axis);
 }

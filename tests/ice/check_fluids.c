@@ -12,6 +12,10 @@
 #define BELOW(y) ", \"region\": {\"box\": {\"min\": [null, null], \"max\": [null, " y "]}}"
 #define AIR ", \"fluids\": {\"air\": {}}"
 #define COLUMN "\"grid\": {\"min\": [0, 0], \"max\": [0.2, 2], \"h\": 0.05}, \"time\": {\"end\": 10}"
+#define OIL                                                                                                            \
+  ", \"fluids\": {\"oil\": {\"density\": 850, \"bulk_modulus\": 1.5e9, \"viscosity\": 0.05, \"eos\": {\"law\": "       \
+  "\"linear_water\", \"reference_pressure\": 101325}, \"region\": {\"box\": {\"min\": [null, null], \"max\": [null, "  \
+  "1.23]}}}, \"air\": {}}"
 #define TANK "\"grid\": {\"min\": [0, 0], \"max\": [0.3, 0.4], \"h\": 0.02}, \"time\": {\"end\": 10}"
 #define STONES                                                                                                         \
   ", \"materials\": {\"stone\": {\"model\": \"rigid\", \"density\": 2650, \"porosity\": 0.49, \"grain_diameter\": "    \
@@ -39,6 +43,7 @@ static const struct {
     {"{" COLUMN DOWN WATER(BELOW("1.02")) AIR MOVING "}", 0},
     {"{" COLUMN DOWN WATER(BELOW("1.04")) AIR MOVING "}", 0},
     {"{" COLUMN DOWN WATER(BELOW("1")) AIR MOVING ", \"boundary\": {\"fluid\": {\"y_max\": \"open\"}}}", 110901.314},
+    {"{" COLUMN DOWN WATER(BELOW("0.61")) OIL MOVING "}", 0}, /* three layers */
     {"{" COLUMN ", \"gravity\": [0, 9.81]" WATER(
          ", \"region\": {\"box\": {\"min\": [null, 1.01], \"max\": [null, null]}}") AIR MOVING "}",
      0},
