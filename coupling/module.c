@@ -57,6 +57,7 @@ static enum status create(struct sim *sim, void *state)
   c->permeability = coupling_permeability(sim->scene, &sim->scene->materials[last]);
   c->diameter = sim->scene->materials[last].grain_diameter;
   FOR_BOX_SERIAL(&sim->grid, all, n) c->room_nc[n] = boundary_room(&m->kernel_grid, sim->scene->numerics.basis, n);
+  coupling_find_rooms(sim, c, 0);
   TRY(coupling_gather_volumes(sim, 0));
   if (c->several_media) TRY(coupling_gather_media(sim, 0));
   return OK;

@@ -2,7 +2,7 @@
 #include "coupling/stages.h"
 
 #include "core/parallel.h"
-#include "mpm/mpm.h"
+#include "mpm/walls.h"
 
 #include <float.h>
 #include <math.h>
@@ -34,11 +34,30 @@ static void gather_volumes(struct sim *sim, struct coupling *c)
   fold(sim, c->bulk_nc);
 }
 
+/* whether an obstacle may be elsewhere than a step ago */
+static bool rooms_change(const struct scene *scene)
+{
+  bool change = false;
+  for (int i = 0; i < scene->n_obstacles; i++) {
+    const struct obstacle *o = &scene->obstacles[i];
+    change = change || o->from > 0 || (o->until > 0 && o->until < scene->time_end);
+    for (int d = 0; d < scene->dim; d++) change = change || o->velocity[d].expression || o->velocity[d].constant != 0;
+  }
+  return change;
+}
+
+void coupling_find_rooms(const struct sim *sim, struct coupling *c, double t)
+{
+  const struct mpm *m = mpm_of(sim);
+  if (m->walls && sim->scene->n_obstacles > 0) walls_find_rooms(sim, m, t, c->solid_nc, c->room_nc);
+}
+
 enum status coupling_gather_volumes(struct sim *sim, double dt)
 {
   (void)dt;
   struct coupling *c = coupling_of(sim);
   if (known(sim)) return OK;
+  if (rooms_change(sim->scene)) coupling_find_rooms(sim, c, sim->t);
   gather_volumes(sim, c);
   return OK;
 }

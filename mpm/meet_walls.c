@@ -212,16 +212,14 @@ static void expel_from(const struct sim *sim, struct mpm *m, struct sweep *w, do
   for (long r = 0; r < points->n_runs; r++) {
     struct kernel_run run = {.begin = points->start[r], .end = points->start[r + 1]};
     points_block_corner(points, r / points->n_groups, run.corner);
-    if (scene_material(sim->scene, (int)(r % points->n_groups))->model->held || run.begin == run.end ||
-        wall_distance_of_block(sim, m, w->wall, &run) > 0)
-      continue;
+    bool held = !m->walls->liquid && scene_material(sim->scene, (int)(r % points->n_groups))->model->held;
+    if (held || run.begin == run.end || wall_distance_of_block(sim, m, w->wall, &run) > 0) continue;
     for (long p = run.begin; p < run.end; p++) *depth = fmax(*depth, expel_point(m, p, w));
   }
 }
 
-enum status mpm_expel_points(struct sim *sim, double dt)
+void walls_expel(const struct sim *sim, struct mpm *m, double dt)
 {
-  struct mpm         *m = mpm_of(sim);
   struct walls_state *s = m->walls;
   for (int i = 0; i < s->n_walls; i++) {
     struct wall_numbers *now = &m->now.wall[s->wall[i].account];
@@ -232,12 +230,16 @@ enum status mpm_expel_points(struct sim *sim, double dt)
     expel_from(sim, m, &w, &now->depth);
     book(m, &w, dt);
   }
+}
+
+enum status mpm_expel_points(struct sim *sim, double dt)
+{
+  walls_expel(sim, mpm_of(sim), dt);
   return OK;
 }
 
-enum status mpm_meet_walls(struct sim *sim, double dt)
+enum status walls_meet(struct sim *sim, struct mpm *m, double dt)
 {
-  struct mpm         *m = mpm_of(sim);
   struct walls_state *s = m->walls;
   TRY(touches_find(sim, m));
   for (int i = 0; i < s->n_walls; i++) memset(m->now.wall[s->wall[i].account].force, 0, 3 * sizeof(double));
@@ -254,3 +256,5 @@ enum status mpm_meet_walls(struct sim *sim, double dt)
   for (int i = 0; i < s->n_walls; i++) move_wall(sim, m, i);
   return OK;
 }
+
+enum status mpm_meet_walls(struct sim *sim, double dt) { return walls_meet(sim, mpm_of(sim), dt); }

@@ -156,7 +156,9 @@ static void ask_points(struct sim *sim, struct mpm *m, int body, int wall)
   struct touch_list *list = m->walls->list;
   FOR_RUNS(m->points, &sim->grid, run, group)
   {
-    if (sim->scene->solids[group].body != body || scene_material(sim->scene, group)->model->held) continue;
+    bool other =
+        !m->walls->liquid && (sim->scene->solids[group].body != body || scene_material(sim->scene, group)->model->held);
+    if (other) continue;
     if (wall_distance_of_block(sim, m, wall, &run) >= 2 * farthest_reach(sim, m)) continue;
     for (long p = run.begin; p < run.end; p++) tell_nodes(sim, m, wall, p);
   }

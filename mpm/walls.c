@@ -48,6 +48,21 @@ enum status walls_create(struct sim *sim, struct mpm *m)
   return OK;
 }
 
+enum status walls_create_liquid(struct sim *sim, struct mpm *m)
+{
+  const struct scene *scene = sim->scene;
+  TRY(NEW(&m->walls, 1));
+  m->walls->liquid = true;
+  for (int i = 0; i < scene->n_obstacles; i++) {
+    struct wall *wall = &m->walls->wall[m->walls->n_walls++];
+    *wall = (struct wall){scene->obstacles[i], SIDES + i};
+    wall->body.friction = 0;
+  }
+  TRY(touches_create(sim, m, m->walls));
+  touches_lay_down(sim, m);
+  return OK;
+}
+
 void walls_destroy(struct mpm *m)
 {
   if (m->walls) touches_destroy(m->walls);
@@ -109,11 +124,11 @@ bool mpm_wall_find(const struct sim *sim, const char *name, int *wall)
   return false;
 }
 
-/* half a cell of motion */
-double mpm_walls_dt(const struct sim *sim)
+double mpm_walls_dt(const struct sim *sim) { return walls_dt(sim, mpm_of(sim)->walls); }
+
+double walls_dt(const struct sim *sim, const struct walls_state *s)
 {
-  const struct walls_state *s = mpm_of(sim)->walls;
-  double                    limit = INFINITY;
+  double limit = INFINITY;
   for (int i = 0; i < s->n_walls; i++) {
     double vel[3], square = 0;
     wall_velocity(&s->wall[i].body, sim->t, vel);

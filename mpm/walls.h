@@ -41,6 +41,7 @@ struct touch_range {
 
 /* Walls of a scene, and where bodies touch them in this step. */
 struct walls_state {
+  bool                liquid; /* who meets them are the points of a liquid: one body without a material */
   int                 n_walls;
   struct wall         wall[MAX_WALLS];
   struct touch_list  *list;
@@ -52,7 +53,19 @@ struct walls_state {
 /** Whether the scene has such walls. */
 bool        walls_present(const struct scene *scene);
 enum status walls_create(struct sim *sim, struct mpm *m) MUST_CHECK;
+/** Obstacles alone, smooth, that the points of a liquid meet: m says where its points and nodes are: points, x_p,
+ * vel_p, mass_p, volume_p, skin_p, kernels, kernel_grid, sides, mass_floor and one body. */
+enum status walls_create_liquid(struct sim *sim, struct mpm *m) MUST_CHECK;
 void        walls_destroy(struct mpm *m);
+/** New nodal velocities of all bodies meet the walls, which then move. */
+enum status walls_meet(struct sim *sim, struct mpm *m, double dt) MUST_CHECK;
+/** s: half a cell of motion. */
+double walls_dt(const struct sim *sim, const struct walls_state *s);
+/** Points inside walls are put back on their surface. */
+void walls_expel(const struct sim *sim, struct mpm *m, double dt);
+/** Rooms of nodes, m3 [size], without what obstacles that are there at time t fill: the points of the lattice inside
+ * them. taken_nc [size] is scratch. At least a hundredth stays. */
+void walls_find_rooms(const struct sim *sim, const struct mpm *m, double t, double *taken_nc, double *room_nc);
 
 /** Whether a wall is there at time t; before t = 0, while the start is sought: as at 0. */
 bool wall_present(const struct obstacle *body, double t);

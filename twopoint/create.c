@@ -39,13 +39,6 @@ enum status twopoint_check(const struct scene *scene)
         ERR_INPUT,
         "fluid.bulk_modulus: the twopoint path needs a finite fluid.bulk_modulus; give one in Pa, or use the path ice");
   for (int i = 0; i < 2 * scene->dim; i++) TRY(check_side(&scene->fluid_side[i], i));
-  for (int i = 0; i < scene->n_obstacles; i++)
-    if (scene->obstacles[i].until > 0)
-      return FAIL(
-          ERR_INPUT,
-          "obstacles.%s: on the twopoint path it stops solids only and water would flow through it; use the path "
-          "ice, or leave it out",
-          scene->obstacles[i].name);
   return OK;
 }
 
@@ -158,9 +151,10 @@ static enum status place_points(struct sim *sim, struct twopoint *w)
 {
   const struct scene *scene = sim->scene;
   double(*x)[3];
-  int dim = sim->grid.dim;
+  struct shape parts[1 + MAX_OBSTACLES], region = twopoint_region(scene, parts);
+  int          dim = sim->grid.dim;
   TRY(NEW(&x, w->points->n));
-  mpm_fill_shape(scene, &scene->fluid.region, x);
+  mpm_fill_shape(scene, &region, x);
   for (long p = 0; p < w->points->n; p++) {
     displace(scene, w->params->jitter, p, x[p]);
     for (int d = 0; d < dim; d++) {
@@ -206,6 +200,7 @@ enum status twopoint_create(struct sim *sim, void *state)
   TRY(create_grids(sim, w));
   TRY(place_points(sim, w));
   TRY(twopoint_sort_now(sim, w));
+  TRY(twopoint_create_walls(sim, w));
   weigh_points(sim, w);
   return twopoint_find_speed(sim, w);
 }
@@ -216,4 +211,5 @@ void twopoint_destroy(void *state)
   memory_free(&w->water_bound);
   memory_free(&w->solid_bound);
   memory_free(&w->run_speed);
+  twopoint_destroy_walls(w);
 }

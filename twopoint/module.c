@@ -83,6 +83,9 @@ static const struct stage stages[] = {
      "only when the skeleton is held", held, twopoint_exchange_momentum, NULL},
     {"twopoint.advance_water", SLOT_to_solid, "water_star_nc", "water_vel_new_nc", "twopoint 4",
      "only without a skeleton", bare, twopoint_exchange_momentum, NULL},
+    {"twopoint.meet_walls", SLOT_to_solid, "x_w vel_w volume_w skin_w water_mass_nc water_vel_nc water_vel_new_nc",
+     "water_vel_new_nc water_room_nc", "twopoint 13", "only with obstacles in the water", twopoint_walled,
+     twopoint_meet_walls, twopoint_walls_dt},
     {"twopoint.strain_water", SLOT_fluid_points, "x_w water_vel_new_nc vel_new_nc? skeleton_porosity_nc porosity_nc",
      "flux_nc gradq_w dlnJ_w porosity_w", "twopoint 6", "only with a skeleton", skeleton, twopoint_strain_water, NULL},
     {"twopoint.nodes_to_points", SLOT_fluid_points, MOVE, "x_w vel_w", "twopoint 3",
@@ -93,6 +96,8 @@ static const struct stage stages[] = {
      "only without a skeleton and shear", bare_alone, twopoint_nodes_to_points, twopoint_speed_limit},
     {"twopoint.move_strain_and_shear", SLOT_fluid_points, MOVE, "x_w vel_w dlnJ_w shear_w", "twopoint 3",
      "only without a skeleton, with shear", bare_shear, twopoint_nodes_to_points, twopoint_shear_limit},
+    {"twopoint.expel_points", SLOT_fluid_points, "x_w vel_w", "x_w vel_w", "twopoint 13",
+     "only with obstacles in the water", twopoint_walled, twopoint_expel_points, NULL},
     {"twopoint.sort_moved", SLOT_fluid_points, "x_w", "x_w", "twopoint 3", "always", NULL, twopoint_sort_points, NULL},
     {"twopoint.gather_volumes", SLOT_fluid_points, "x_w volume_w porosity_w", "water_volume_nc water_pores_nc?",
      "twopoint 2", "only without averages of the increment", no_increment, twopoint_gather_water, NULL},
@@ -113,7 +118,8 @@ static const struct stage stages[] = {
 static enum status count(const struct scene *scene, long n[], int groups[])
 {
   TRY(twopoint_check(scene));
-  n[SET_WATER] = mpm_fill_shape(scene, &scene->fluid.region, NULL);
+  struct shape parts[1 + MAX_OBSTACLES], region = twopoint_region(scene, parts);
+  n[SET_WATER] = mpm_fill_shape(scene, &region, NULL);
   groups[SET_WATER] = 1;
   if (n[SET_WATER] == 0)
     return FAIL(ERR_INPUT, "fluid.region: no water point lies inside; enlarge the region or refine grid.h");

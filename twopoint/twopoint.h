@@ -4,10 +4,9 @@
 #define TWOPOINT_TWOPOINT_H
 
 #include "core/sim.h"
-#include "mpm/kernels/kernels.h"
+#include "mpm/mpm.h"
 
 struct coupling;
-struct mpm;
 
 struct twopoint_params {
   int    averaging_interval; /* steps between two averages of the pressure; 0: never */
@@ -36,12 +35,14 @@ struct twopoint {
   double                        mass_floor;                /* kg: a node with less water has no velocity */
   double                        rho0;                      /* kg/m3 at P = 0 */
   double                        fast_wave;                 /* m/s, c_f */
+  struct mpm                   *shade;                     /* the water as mpm/walls.h sees it; NULL: no obstacles */
   bool                          grains_held; /* some skeleton does not move and takes its share of forces */
   struct twopoint_numbers {
-    double speed;                         /* m/s, fastest point of the last step */
-    double put_back, deleted, flowed_out; /* points that left the grid, since the start */
-    double mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
-    double momentum_out[3];               /* kg m/s; these two also lost when points were put back */
+    double              speed;                         /* m/s, fastest point of the last step */
+    double              put_back, deleted, flowed_out; /* points that left the grid, since the start */
+    double              mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
+    double              momentum_out[3];               /* kg m/s; these two also lost when points were put back */
+    struct wall_numbers wall[SIDES + MAX_OBSTACLES];   /* what obstacles did to the water */
   } now;
 };
 
@@ -64,6 +65,9 @@ enum status twopoint_points_to_nodes(struct sim *sim, double dt);
 enum status twopoint_predict_nodes(struct sim *sim, double dt);
 enum status twopoint_resist_nodes(struct sim *sim, double dt);
 enum status twopoint_exchange_momentum(struct sim *sim, double dt);
+enum status twopoint_meet_walls(struct sim *sim, double dt);
+enum status twopoint_expel_points(struct sim *sim, double dt);
+double      twopoint_walls_dt(const struct sim *sim);
 enum status twopoint_strain_water(struct sim *sim, double dt);
 enum status twopoint_nodes_to_points(struct sim *sim, double dt);
 enum status twopoint_gather_water(struct sim *sim, double dt);
@@ -95,6 +99,14 @@ void twopoint_finish_average(struct sim *sim, struct twopoint *w, const struct k
 enum status twopoint_find_speed(struct sim *sim, struct twopoint *w) MUST_CHECK;
 /** Adds mass, momentum and energy of point p. */
 void twopoint_measure_point(const struct sim *sim, const struct twopoint *w, long p, struct ledger *l);
+
+/** Whether obstacles stand in the water at some time. */
+bool twopoint_walled(const struct scene *scene);
+/** The fluid's region without the obstacles that are there at the start; parts [1 + MAX_OBSTACLES] is its store. */
+struct shape twopoint_region(const struct scene *scene, struct shape *parts);
+/** What mpm/walls.h must know of the water, and rooms of nodes beside obstacles. */
+enum status twopoint_create_walls(struct sim *sim, struct twopoint *w) MUST_CHECK;
+void        twopoint_destroy_walls(struct twopoint *w);
 
 /** Whether the solid or a held skeleton takes its share of the forces at a node. */
 bool twopoint_shares(const struct twopoint *w, long node);
