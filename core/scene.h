@@ -54,10 +54,11 @@ struct fluid {
   const struct drag_law *drag;
   void                  *drag_params;
   struct shape           region;
-  struct function        velocity[3];  /* m/s at the start */
-  struct function        pressure;     /* Pa (gauge) at the start, where the start is not at rest */
-  struct function        temperature;  /* K at the start; the number 0: energy is not solved */
-  double                 conductivity; /* W/(m K) */
+  struct function        velocity[3];   /* m/s at the start */
+  struct function        pressure;      /* Pa (gauge) at the start, where the start is not at rest */
+  struct function        temperature;   /* K at the start; the number 0: energy is not solved */
+  double                 conductivity;  /* W/(m K) */
+  double                 heat_exchange; /* W/(m3 K), with the grains, per volume of medium */
 };
 
 /** Whether the fluid's energy is solved. */

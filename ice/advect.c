@@ -10,19 +10,29 @@
 /* largest share of a cell that leaves it through a face in one sweep */
 static const double courant = 0.5;
 
-bool advect_is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f)
+bool advect_is_smooth(const struct grid *g, const struct ice *ice, int axis, long f)
 {
-  long low = f - sim->grid.stride[axis];
-  if (ice->several) return ice->kind[axis * sim->grid.size + f] == FACE_INNER && advect_same(ice, low, f);
-  return ice->kind[axis * sim->grid.size + f] == FACE_INNER && ice->alpha_cc[f] > advect_full &&
-         ice->alpha_cc[low] > advect_full && !ice_has_surface(&sim->grid, ice, f) &&
-         !ice_has_surface(&sim->grid, ice, low);
+  long low = f - g->stride[axis];
+  if (ice->several) return ice->kind[axis * g->size + f] == FACE_INNER && advect_same(ice, low, f);
+  return ice->kind[axis * g->size + f] == FACE_INNER && ice->alpha_cc[f] > advect_full &&
+         ice->alpha_cc[low] > advect_full && !ice_has_surface(g, ice, f) && !ice_has_surface(g, ice, low);
 }
 
 double advect_courant(const struct grid *g, const struct ice *ice, int axis, long f, long from)
 {
   double V = grid_cell_volume(g), liquid = ice->liquid_fc[axis * g->size + f] * V;
   return fabs(liquid) / (ice->pore_cc[from] * V);
+}
+
+double advect_density(const struct grid *g, const struct ice *ice, int axis, long f)
+{
+  bool   up = ice->liquid_fc[axis * g->size + f] > 0;
+  long   from = up ? f - g->stride[axis] : f;
+  double rho = ice->rho_cc[from];
+  if (!ice->T_cc || !advect_is_smooth(g, ice, axis, f)) return rho;
+  double part = (up ? 0.5 : -0.5) * (1 - advect_courant(g, ice, axis, f, from));
+  double coming = ice->swell_cc ? -0.5 * rho * ice->swell_cc[from] : 0;
+  return rho + part * advect_slope(g, ice, axis, from, 1, ice->rho_cc) + coming;
 }
 
 /* Change of velocity component d from a cell's centre to that of its neighbour along an axis. A wall mirrors: what it
@@ -57,16 +67,17 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
   long               from = liquid > 0 ? low : f;
   if (liquid == 0) return 0; /* nobody knows what lies behind a wall */
   if (ice->kind[q] == FACE_INLET) return liquid * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t);
-  if (!advect_is_smooth(sim, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
+  if (!advect_is_smooth(g, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
   double number = advect_courant(g, ice, axis, f, from),
          coming = (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q];
-  return (liquid + coming) * ice->rho_cc[from] * advect_leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
+  return (liquid + coming) * advect_density(g, ice, axis, f) *
+         advect_leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
 }
 
 double advect_mass(const struct ice *ice, const struct grid *g, int axis, long f)
 {
-  long q = axis * g->size + f, low = f - g->stride[axis], from = ice->liquid_fc[q] > 0 ? low : f;
-  return ice->liquid_fc[q] != 0 ? ice->liquid_fc[q] * grid_cell_volume(g) * ice->rho_cc[from] : 0;
+  double liquid = ice->liquid_fc[axis * g->size + f];
+  return liquid != 0 ? liquid * grid_cell_volume(g) * advect_density(g, ice, axis, f) : 0;
 }
 
 static void gather_momentum(struct sim *sim, struct ice *ice, int axis, double dt)
@@ -171,6 +182,16 @@ void ice_open_rooms(struct sim *sim, struct ice *ice)
   }
 }
 
+/* Liquid without a surface fills its room: what a cell has too much or too little is a defect, no surface with a plane
+ */
+static void fill_up(struct sim *sim, struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  FOR_BOX(g, cells, c)
+  if (ice->alpha_cc[c] > advect_full) ice->alpha_cc[c] = 1;
+}
+
 /* vel_start becomes what the step has changed so far */
 static void find_changes(struct sim *sim, struct ice *ice)
 {
@@ -187,6 +208,7 @@ enum status ice_advect(struct sim *sim, double dt)
   ice_open_rooms(sim, ice);
   find_changes(sim, ice);
   ice_begin_forecast(sim, ice);
+  if (!ice->surface) fill_up(sim, ice);
   for (int part = 0; part < parts; part++) {
     plic_begin(&ice->plic, ice->alpha_cc);
     for (int i = 0; i < g->dim; i++) {

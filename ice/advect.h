@@ -11,7 +11,10 @@ static const double advect_full = 0.999;
 static const double advect_least_mass = 1e-12;
 
 /** Whether a face lies in the full liquid, where fluxes are of second order. */
-bool advect_is_smooth(const struct sim *sim, const struct ice *ice, int axis, long f);
+bool advect_is_smooth(const struct grid *g, const struct ice *ice, int axis, long f);
+/** Density of what passes a face in this sweep, kg/m3: that of the cell it leaves; where energy is solved, inside the
+ * liquid of second order, as the temperature is. */
+double advect_density(const struct grid *g, const struct ice *ice, int axis, long f);
 /** Mass that passes a face in this sweep, kg, upwards. */
 double advect_mass(const struct ice *ice, const struct grid *g, int axis, long f);
 /** Share of the pores of cell `from` that passes a face in this sweep. */

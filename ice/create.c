@@ -90,6 +90,7 @@ void ice_classify_faces(struct sim *sim, struct ice *ice)
       fixed = fixed || kind == FACE_SURFACE || kind == FACE_PRESSURE;
     }
   }
+  ice->closed = !fixed;
   ice->singular = !fixed;
   for (int k = 0; k < sim->scene->n_fluids; k++)
     ice->singular = ice->singular && isinf(scene_fluid(sim->scene, k)->bulk_modulus);

@@ -106,6 +106,9 @@ enum status ice_check_range(const struct sim *sim, const struct ice *ice)
   return OK;
 }
 
+/* what heat has done to the volume is no defect */
+static double swell(const struct ice *ice, long c) { return ice->swell_cc ? ice->swell_cc[c] : 0; }
+
 /* density from the carried pressure, row by row; how far mass and pressure disagree */
 enum status ice_update_properties(struct sim *sim, double dt)
 {
@@ -121,7 +124,9 @@ enum status ice_update_properties(struct sim *sim, double dt)
     fluid->eos->density(fluid->eos_params, g->n[0], ice->P_cc + c0, ice_temperature(ice, c0), ice->rho_cc + c0);
     for (long c = c0; c < c0 + g->n[0]; c++)
       ice->defect_cc[c] =
-          ice->wet_cc[c] > 0 ? ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * ice->open_cc[c] * V) - 1 : 0;
+          ice->wet_cc[c] > 0
+              ? ice->mass_cc[c] / (ice->rho_cc[c] * ice->porosity_cc[c] * ice->open_cc[c] * V) - 1 - swell(ice, c)
+              : 0;
   }
   grid_fill_periodic(g, 1, ice->P_cc);
   grid_fill_periodic(g, 1, ice->rho_cc);
@@ -308,6 +313,13 @@ double ice_fastest_change(const struct sim *sim, const struct ice *ice, double t
   return most;
 }
 
+/* s in which liquid that is pushed with a, m/s2, goes half a cell at its last speed; drag holds it by k times its
+ * speed: a dt^2 = h/2 (1 + k dt) */
+static double time_to_cross(double h, double a, double k)
+{
+  return k > 0 ? (0.5 * h * k + sqrt(0.25 * h * h * k * k + 2 * a * h)) / (2 * a) : sqrt(0.5 * h / a);
+}
+
 /* the fluid's and the faces' share of the time step: theory 4.7 */
 double ice_dt_limit(const struct sim *sim)
 {
@@ -315,7 +327,7 @@ double ice_dt_limit(const struct sim *sim)
   double gravity[3], g2 = 0, h = sim->grid.h, limit = ice->now.speed > 0 ? 0.5 * h / ice->now.speed : INFINITY;
   sim_gravity(sim, sim->t, gravity);
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
-  if (ice->advects) limit = fmin(limit, sqrt(0.5 * h / ice->now.change));
+  if (ice->advects) limit = fmin(limit, time_to_cross(h, ice->now.change, ice->now.drag_rate));
   if (ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / ice_fastest_change(sim, ice, sim->t)));
   if (ice->several && g2 > 0) return fmin(limit, 0.25 * sqrt(h / sqrt(g2)));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;

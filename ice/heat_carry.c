@@ -6,28 +6,6 @@
 #include "core/parallel.h"
 #include "eos/eos.h"
 
-double ice_heat_capacity(const struct sim *sim)
-{
-  const struct fluid *fluid = &sim->scene->fluid;
-  return fluid->eos->heat_capacity(fluid->eos_params);
-}
-
-enum status ice_heat_create(struct sim *sim, struct ice *ice)
-{
-  struct box cells = grid_cells(&sim->grid);
-  FOR_BOX_SERIAL(&sim->grid, cells, c)
-  {
-    double x[3];
-    grid_centre(&sim->grid, c, x);
-    ice->T_cc[c] = function_value(&sim->scene->fluid.temperature, x, 0);
-    if (!(ice->T_cc[c] > 0))
-      return FAIL(ERR_INPUT, "fluid.temperature: %g at (%g, %g, %g) is not above 0; give it in K", ice->T_cc[c], x[0],
-                  x[1], x[2]);
-  }
-  grid_fill_periodic(&sim->grid, 1, ice->T_cc);
-  return OK;
-}
-
 void ice_heat_beyond(const struct sim *sim, struct ice *ice, int side, long f)
 {
   const struct fluid     *fluid = &sim->scene->fluid;
@@ -51,9 +29,10 @@ static double carried(const struct sim *sim, const struct ice *ice, int axis, lo
   long               from = up ? f - g->stride[axis] : f;
   double             mass = advect_mass(ice, g, axis, f);
   if (mass == 0) return 0;
-  if (!advect_is_smooth(sim, ice, axis, f)) return mass * (ice->T_cc[from] - T);
-  double slope = advect_slope(g, ice, axis, from, 1, ice->T_cc);
-  return mass * (ice->T_cc[from] - T + (up ? 0.5 : -0.5) * (1 - advect_courant(g, ice, axis, f, from)) * slope);
+  if (!advect_is_smooth(g, ice, axis, f)) return mass * (ice->T_cc[from] - T);
+  double slope = advect_slope(g, ice, axis, from, 1, ice->T_cc), coming = ice->warming_cc ? ice->warming_cc[from] : 0;
+  double part = (up ? 0.5 : -0.5) * (1 - advect_courant(g, ice, axis, f, from));
+  return mass * (ice->T_cc[from] - T + part * slope + 0.5 * coming);
 }
 
 /* J that leaves through the sides of the grid that an axis has, net */
@@ -80,6 +59,20 @@ void ice_heat_gather(const struct sim *sim, struct ice *ice, int axis)
   ice->now.heat_out += leaving(sim, ice, axis);
 }
 
+/* densities follow temperatures from sweep to sweep: else the mass that the next one carries would not fit its heat */
+static void follow(const struct sim *sim, struct ice *ice)
+{
+  const struct fluid *fluid = &sim->scene->fluid;
+  const struct grid  *g = &sim->grid;
+  struct box          cells = grid_cells(g);
+  PARALLEL_FOR
+  for (long r = 0; r < box_rows(&cells); r++) {
+    long c0 = box_row(g, &cells, r);
+    fluid->eos->density(fluid->eos_params, g->n[0], ice->P_cc + c0, ice->T_cc + c0, ice->rho_cc + c0);
+  }
+  grid_fill_periodic(g, 1, ice->rho_cc);
+}
+
 void ice_heat_settle(const struct sim *sim, struct ice *ice)
 {
   const struct grid *g = &sim->grid;
@@ -89,14 +82,5 @@ void ice_heat_settle(const struct sim *sim, struct ice *ice)
   if (ice->mass_cc[c] > advect_least_mass * ice->rho_cc[c] * ice->pore_cc[c] * V)
     ice->T_cc[c] += ice->warmth_cc[c] / ice->mass_cc[c];
   grid_fill_periodic(g, 1, ice->T_cc);
-}
-
-void ice_heat_measure(const struct sim *sim, struct ledger *l)
-{
-  const struct ice *ice = ice_of(sim);
-  struct box        cells = grid_cells(&sim->grid);
-  double            warmth = 0;
-  FOR_BOX_SERIAL(&sim->grid, cells, c) warmth += ice->mass_cc[c] * ice->T_cc[c];
-  l->v[LEDGER_heat_fluid] += ice_heat_capacity(sim) * warmth;
-  l->v[LEDGER_heat_fluid_out] += ice->now.heat_out;
+  follow(sim, ice);
 }

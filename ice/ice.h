@@ -4,6 +4,7 @@
 
 #include "core/linear.h"
 #include "core/sim.h"
+#include "ice/heat_phase.h"
 #include "ice/plic.h"
 
 /* what a face is to the fluid */
@@ -20,6 +21,7 @@ struct ice_params {
   bool   advection;        /* the liquid carries its momentum, and its surface goes where it flows */
   bool   shocks;           /* a fluid at any speed, that fills the grid */
   double acoustic_courant; /* cells that a wave may go per step; 0: the step does not know of sound */
+  bool   shear;            /* viscous stress between cells */
   double memory;           /* share of what a face had beyond the mean of its cells that it keeps */
   double smagorinsky;      /* C of the eddies' viscosity */
   double defect_share;     /* share of the volume defect that is made good per step */
@@ -41,8 +43,9 @@ struct ice {
   struct linear           *linear;
   unsigned char           *kind; /* [dim][size] enum face_kind */
   struct plic              plic;
-  double                  *rim; /* [dim][size] h: a surface's distance beyond the fill's; NULL: none has */
-  double                  *one; /* [dim][size] ones: porosity without a skeleton */
+  struct heat              heat; /* where the fluid's energy is solved */
+  double                  *rim;  /* [dim][size] h: a surface's distance beyond the fill's; NULL: none has */
+  double                  *one;  /* [dim][size] ones: porosity without a skeleton */
   const double            *porosity_cc, *porosity_fc;
   const double *open_cc, *open_fc; /* share that obstacles leave open of a cell at the start of the step, of a
                                       face at its end */
@@ -56,6 +59,7 @@ struct ice {
   bool skeleton, moves; /* there is a skeleton; it moves */
   bool advects;         /* params->advection, in scenes without params->shocks */
   bool surface;         /* some face is FACE_SURFACE */
+  bool closed;          /* no face has a given pressure */
   bool singular;        /* incompressible and closed: pressure up to a constant */
   struct ice_numbers {
     double speed;  /* m/s, fastest fluid of the last step */
@@ -64,6 +68,10 @@ struct ice {
     double squeeze;                /* 1/s, fastest change of volume of the last step; with params->shocks */
     double heat_out;               /* J that went with it */
     double viscosity;              /* m2/s, largest with eddies */
+    double heat_sides;             /* J conducted in through sides since the start */
+    double heat_side[SIDES];       /* W through each side in the last step */
+    double heat_step;              /* s that the change of temperatures in the last step would allow; 0: none yet */
+    double drag_rate;              /* 1/s, the least K/(n rho) of all faces that answer to pressure, in the last step */
     double defect_rms, defect_max; /* of the last step, over the pore volume */
     struct body_place obstacle[MAX_OBSTACLES], before[MAX_OBSTACLES]; /* now, and a step ago */
   } now;

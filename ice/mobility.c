@@ -89,6 +89,23 @@ static void resist_stretch(const struct sim *sim, struct ice *ice, int axis, lon
   if (ice->several) mix_drag(sim, ice, axis, f0, n, slip, permeability, diameter);
 }
 
+/* 1/s, the least of all faces that answer to pressure */
+static double least_drag_rate(const struct sim *sim, const struct ice *ice)
+{
+  const struct grid *g = &sim->grid;
+  double             least = INFINITY;
+  for (int axis = 0; axis < g->dim; axis++) {
+    struct box faces = grid_faces(g, axis);
+    FOR_BOX_SERIAL(g, faces, f)
+    {
+      long q = axis * g->size + f;
+      if (!ice_face_active(ice->kind[q])) continue;
+      least = fmin(least, ice->drag_fc[q] / (ice->porosity_fc[q] * ice_face_density(g, ice, axis, f)));
+    }
+  }
+  return least < INFINITY ? least : 0;
+}
+
 enum status ice_resist_faces(struct sim *sim, double dt)
 {
   (void)dt;
@@ -102,6 +119,7 @@ enum status ice_resist_faces(struct sim *sim, double dt)
       for (int i = 0; i < length; i += DRAG_BATCH)
         resist_stretch(sim, ice, axis, box_row(g, &faces, r) + i, length - i < DRAG_BATCH ? length - i : DRAG_BATCH);
   }
+  if (ice->advects) ice->now.drag_rate = least_drag_rate(sim, ice);
   return OK;
 }
 

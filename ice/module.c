@@ -31,6 +31,11 @@ static bool alone(const struct scene *sc) { return !several(sc); }
 static bool one_advects(const struct scene *sc) { return advects(sc) && alone(sc); }
 static bool carries_cold(const struct scene *sc) { return one_advects(sc) && !warm(sc); }
 static bool carries_warm(const struct scene *sc) { return one_advects(sc) && warm(sc); }
+static bool exchanges(const struct scene *sc) { return carries_warm(sc) && heat_has_grains(sc); }
+static bool conducts(const struct scene *sc)
+{
+  return carries_warm(sc) && !heat_has_grains(sc) && sc->fluid.conductivity > 0;
+}
 static bool turbulent(const struct scene *sc)
 {
   const struct ice_params *params = scene_module_params(sc, &module_ice);
@@ -38,9 +43,10 @@ static bool turbulent(const struct scene *sc)
 }
 static bool viscous(const struct scene *sc)
 {
-  bool any = turbulent(sc);
+  const struct ice_params *params = scene_module_params(sc, &module_ice);
+  bool                     any = turbulent(sc);
   for (int k = 0; k < sc->n_fluids; k++) any = any || scene_fluid(sc, k)->viscosity > 0;
-  return advects(sc) && any;
+  return advects(sc) && params->shear && any;
 }
 static bool no_trend(const struct scene *sc) { return !advects(sc); }
 static bool rests(const struct scene *sc) { return !advects(sc) && !shocks(sc); }
@@ -68,7 +74,7 @@ static const struct stage stages[] = {
     {"ice.measure_eddies", SLOT_volume_fractions, "wet_cc rho_cc vel_cc", "mu_cc", "4.11",
      "only with numerics.ice.smagorinsky", turbulent, ice_measure_eddies, NULL},
     {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "viscous_cc vel_cc", "4.11",
-     "only with numerics.ice.advection and a viscosity", viscous, ice_diffuse_momentum, ice_viscous_dt},
+     "only with numerics.ice.advection and shear, and a viscosity", viscous, ice_diffuse_momentum, ice_viscous_dt},
     {"ice.predict_faces", SLOT_predict, "P_cc mass_cc vel_cc beyond_fc rho_cc", "gradP_fc u_old_fc s_old_fc", "4.2",
      "only without numerics.ice.shocks", calm, ice_predict_faces, ice_dt_limit},
     {"ice.predict_solid", SLOT_predict, "mass_nc force_nc vel_nc solid_nc room_nc gradP_fc", "vel_star_nc s_old_fc",
@@ -95,13 +101,19 @@ static const struct stage stages[] = {
     {"ice.accelerate_cells", SLOT_cells, "u_fc u_old_fc mass_cc vel_cc", "vel_cc beyond_fc", "4.10",
      "only with numerics.ice.advection", advects, ice_accelerate_cells, NULL},
     {"ice.centre_diffusion", SLOT_cells, "wet_cc mass_cc vel_cc viscous_cc", "momentum_cc vel_cc", "4.11",
-     "only with numerics.ice.advection and a viscosity", viscous, ice_centre_diffusion, NULL},
+     "only with numerics.ice.advection and shear, and a viscosity", viscous, ice_centre_diffusion, NULL},
     {"ice.advect", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc",
      "pore_cc liquid_fc momentum_cc alpha_cc mass_cc vel_cc forecast_cc", "4.10",
      "only with numerics.ice.advection, one fluid, no energy", carries_cold, ice_advect, NULL},
     {"ice.advect_with_heat", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc T_cc",
      "pore_cc liquid_fc momentum_cc warmth_cc alpha_cc mass_cc vel_cc T_cc forecast_cc", "4.12",
      "only with numerics.ice.advection, one fluid and energy", carries_warm, ice_advect, NULL},
+    {"ice.conduct_heat", SLOT_cells, "mass_cc wet_cc P_cc T_cc", "T_cc warming_cc swell_cc", "4.12",
+     "only with energy and fluid.conductivity, no grains with heat", conducts, ice_conduct_heat, ice_heat_dt},
+    {"ice.conduct_and_exchange_heat", SLOT_cells,
+     "mass_cc wet_cc alpha_cc P_cc T_cc x_p mass_p volume_p volume_solid_p temperature_p",
+     "T_cc T_solid_cc temperature_p warming_cc swell_cc", "4.12", "only with energy, in fluid and grains", exchanges,
+     ice_conduct_heat, ice_heat_dt},
     {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc", "press_fc vel_cc", "4.13",
      "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
     {"ice.push_shock_with_energy", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc T_cc",
@@ -127,6 +139,8 @@ static const struct param params[] = {
      "a fluid at any speed, to shocks, that fills the grid: total energy is conserved where energy is solved"},
     {"acoustic_courant", PARAM_NUMBER, offsetof(struct ice_params, acoustic_courant), "-", 0, 1e6, "0", NULL,
      "with shocks: cells that a wave may go per step; 0: the step does not know of sound"},
+    {"shear", PARAM_FLAG, offsetof(struct ice_params, shear), "-", 0, 0, "true", NULL,
+     "the moving liquid has a viscous stress; without, drag is all that viscosity does, as in Darcy's law"},
     {"memory", PARAM_NUMBER, offsetof(struct ice_params, memory), "-", 0, 1, "0.99", NULL,
      "share of what a face velocity had beyond the mean of its cells that is kept for the next step"},
     {"smagorinsky", PARAM_NUMBER, offsetof(struct ice_params, smagorinsky), "-", 0, 1, "0", NULL,
@@ -147,6 +161,7 @@ static void destroy(void *state)
   obstacles_destroy(ice);
   plic_destroy(&ice->plic);
   memory_free(&ice->one);
+  ice_heat_destroy(&ice->heat);
 }
 
 /* J: what compression of a cell's fluid k has stored, to the second order from the reference pressure; one liquid

@@ -46,7 +46,7 @@ static void pass_momentum(const struct sim *sim, const struct ice *ice, int axis
   long               q = axis * g->size + f, from = ice->carried_fc[q] > 0 ? f - g->stride[axis] : f;
   double             V = grid_cell_volume(g), mass = 0;
   for (int k = 0; k < ice->n_fluids; k++) mass += ice->passed_fc[k * g->dim * g->size + q];
-  bool   given = ice->kind[q] == FACE_INLET, smooth = mass != 0 && advect_is_smooth(sim, ice, axis, f);
+  bool   given = ice->kind[q] == FACE_INLET, smooth = mass != 0 && advect_is_smooth(g, ice, axis, f);
   double number = smooth ? dt * fabs(ice->carried_fc[q]) / (g->h * ice->pore_cc[from]) : 0;
   double coming =
       smooth ? (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q] * ice->mixture_cc[from] : 0;

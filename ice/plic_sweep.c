@@ -117,4 +117,5 @@ void plic_sweep(const struct plic *p, int axis, double dt, const double *flux, d
     double swept = p->state[c] & FILLED ? r * (flux[c + st] - flux[c]) : 0;
     fill[c] += (swept - (passed[c + st] - passed[c])) / p->pore[c];
   }
+  grid_fill_periodic(g, 1, fill);
 }

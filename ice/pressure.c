@@ -63,33 +63,48 @@ static double defect_source(const struct sim *sim, const struct ice *ice, long c
   return ice->params->defect_share * D * ice->porosity_cc[c] * ice->open_cc[c] * grid_cell_volume(&sim->grid) / dt;
 }
 
+/* volume per time that heat makes of the liquid of a cell, m3/s; where there is a surface it rises instead */
+static double thermal_source(const struct sim *sim, const struct ice *ice, long c, double dt)
+{
+  if (!ice->swell_cc || ice_has_surface(&sim->grid, ice, c)) return 0;
+  return ice->swell_cc[c] * ice->porosity_cc[c] * ice->open_cc[c] * grid_cell_volume(&sim->grid) / dt;
+}
+
+/* storage of a cell with a pressure, m3/s/Pa: what the diagonal has beside its couplings */
+static double storage_of(const struct sim *sim, const struct ice *ice, long c, double dt)
+{
+  const struct fluid *fluid = &sim->scene->fluid;
+  double              kappa;
+  if (ice->sound_cc)
+    kappa = 1 / (ice->rho_cc[c] * ice->sound_cc[c] * ice->sound_cc[c]);
+  else if (ice->several)
+    kappa = ice->kappa_cc[c];
+  else
+    fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
+  return ice->porosity_cc[c] * ice->open_cc[c] * kappa * grid_cell_volume(&sim->grid) / dt;
+}
+
 /* diagonal and right-hand side; cells without a pressure are identity rows */
 static void cell_entries(struct sim *sim, struct ice *ice, double dt)
 {
-  const struct grid  *g = &sim->grid;
-  const struct fluid *fluid = &sim->scene->fluid;
-  struct box          cells = grid_cells(g);
-  double              V = grid_cell_volume(g), area = ice_face_area(g);
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             V = grid_cell_volume(g), area = ice_face_area(g);
   FOR_BOX(g, cells, c)
   {
     ice->rhs_cc[c] = 0;
     ice->diagonal_cc[c] = 1;
     if (!(ice->wet_cc[c] > 0)) continue;
-    double kappa, in = 0, sum = 0;
-    if (ice->sound_cc)
-      kappa = 1 / (ice->rho_cc[c] * ice->sound_cc[c] * ice->sound_cc[c]);
-    else if (ice->several)
-      kappa = ice->kappa_cc[c];
-    else
-      fluid->eos->compressibility(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &kappa);
+    double in = 0, sum = 0;
     for (int d = 0; d < g->dim; d++) {
       long low = d * g->size + c, high = low + g->stride[d];
       in += area * (ice->flux_fc[low] - ice->flux_fc[high]);
       sum -= ice->coupling_fc[low] + ice->coupling_fc[high];
     }
-    ice->diagonal_cc[c] = ice->porosity_cc[c] * ice->open_cc[c] * kappa * V / dt + sum;
+    ice->diagonal_cc[c] = storage_of(sim, ice, c, dt) + sum;
     if (ice->diagonal_cc[c] == 0) ice->diagonal_cc[c] = 1; /* incompressible, shut in by obstacles */
-    ice->rhs_cc[c] = in - ice_wall_rate(ice, c, dt) * V + (is_clear(ice, c) ? defect_source(sim, ice, c, dt) : 0);
+    ice->rhs_cc[c] = in + thermal_source(sim, ice, c, dt) - ice_wall_rate(ice, c, dt) * V +
+                     (is_clear(ice, c) ? defect_source(sim, ice, c, dt) : 0);
   }
 }
 
@@ -124,6 +139,42 @@ static enum status solve(struct sim *sim, struct ice *ice, double *rhs, double *
   return FAIL(ERR_SOLVER, "pressure: the solution is not finite at t = %g s; lower numerics.dt_factor", sim->t);
 }
 
+/* storage of the closed liquid below this share of the diagonal is lost in it to round-off */
+static const double lost = 1e-10;
+
+/* The pressure of a closed liquid rises as a whole by its storage alone. In long steps the solver cannot see that: */
+struct whole {
+  double storage, in; /* m3/s/Pa, m3/s */
+  bool   apart;       /* the mean is found from the sums, the solver takes the matrix as singular */
+};
+
+static struct whole sum_up(const struct sim *sim, const struct ice *ice, double dt)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  struct whole       w = {0};
+  double             diagonal = 0;
+  if (!ice->closed || ice->singular) return w;
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    if (!(ice->wet_cc[c] > 0)) continue;
+    w.storage += storage_of(sim, ice, c, dt);
+    w.in += ice->rhs_cc[c];
+    diagonal += ice->diagonal_cc[c];
+  }
+  w.apart = w.storage < lost * diagonal;
+  return w;
+}
+
+static void add_mean(const struct sim *sim, struct ice *ice, const struct whole *w, double dt)
+{
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  double             in = w->in;
+  FOR_BOX_SERIAL(g, cells, c) in -= ice->wet_cc[c] > 0 ? storage_of(sim, ice, c, dt) * ice->dP_cc[c] : 0;
+  FOR_BOX(g, cells, c) ice->dP_cc[c] += ice->wet_cc[c] > 0 ? in / w->storage : 0;
+}
+
 enum status ice_solve_pressure(struct sim *sim, double dt)
 {
   struct ice        *ice = ice_of(sim);
@@ -131,10 +182,12 @@ enum status ice_solve_pressure(struct sim *sim, double dt)
   for (int axis = 0; axis < g->dim; axis++) face_entries(sim, ice, axis, dt);
   cell_entries(sim, ice, dt);
   cut_couplings(sim, ice);
-  double residual, smallest = least_volume_error * grid_cell_volume(g) / dt;
-  double tolerance = fmax(smallest, sim->scene->numerics.pressure_tolerance * largest(g, ice->rhs_cc));
-  linear_set_matrix(ice->linear, ice->diagonal_cc, ice->coupling_fc, ice->singular, ice->wet_cc);
+  double       residual, smallest = least_volume_error * grid_cell_volume(g) / dt;
+  double       tolerance = fmax(smallest, sim->scene->numerics.pressure_tolerance * largest(g, ice->rhs_cc));
+  struct whole whole = sum_up(sim, ice, dt);
+  linear_set_matrix(ice->linear, ice->diagonal_cc, ice->coupling_fc, ice->singular || whole.apart, ice->wet_cc);
   TRY(solve(sim, ice, ice->rhs_cc, ice->dP_cc, tolerance, &residual));
+  if (whole.apart) add_mean(sim, ice, &whole, dt);
   sim->solver.residual_max = fmax(sim->solver.residual_max, residual * dt / grid_cell_volume(g));
   grid_fill_periodic(g, 1, ice->dP_cc);
   return OK;

@@ -27,13 +27,14 @@ static void saturate(struct sim *sim, struct ice *ice)
 }
 
 /* What must go: all that is beyond the pores; what is short only inside the liquid, and slowly: such a void closes by
- * the pressure around it. Less than a void is the pressure's own inaccuracy, and goes as it came. */
+ * the pressure around it. Less than a void is the pressure's own inaccuracy, and goes as it came, as does all of liquid
+ * without a surface: else its pressure would rise. */
 static double defect_of(const struct grid *g, const struct ice *ice, long c)
 {
   static const double void_share = 0.1, least_void = -1e-3;
-  double              D = ice->alpha_cc[c] - 1;
+  double              D = ice->alpha_cc[c] - 1 - (ice->swell_cc ? ice->swell_cc[c] : 0);
   if (!(ice->wet_cc[c] > 0)) return 0;
-  return D > 0 ? D : ice_has_surface(g, ice, c) ? 0 : D < least_void ? void_share * D : D;
+  return D > 0 || !ice->surface ? D : ice_has_surface(g, ice, c) ? 0 : D < least_void ? void_share * D : D;
 }
 
 enum status ice_find_surface(struct sim *sim, double dt)

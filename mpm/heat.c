@@ -24,6 +24,7 @@ bool heat_flows(const struct scene *scene)
 {
   bool conducts = false;
   for (int s = 0; s < scene->n_solids; s++) conducts = conducts || scene_material(scene, s)->conductivity > 0;
+  if (fluid_has_energy(&scene->fluid) && !mpm_solid_moves(scene)) return false;
   return heat_solved(scene) && (conducts || (mpm_solid_moves(scene) && scene->n_bodies > 1));
 }
 

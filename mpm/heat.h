@@ -6,7 +6,8 @@
 
 /** Some material of a solid has a heat capacity: points have a temperature. */
 bool heat_solved(const struct scene *scene);
-/** Heat goes through nodes: something conducts, or bodies rub. */
+/** Heat goes through nodes: something conducts, or bodies rub. Not in a skeleton that is held in a fluid whose energy
+ * is solved: its path conducts for both. */
 bool heat_flows(const struct scene *scene);
 /** Some side of the grid has a given temperature or flux (enum heat_kind). */
 bool heat_has_side(const struct scene *scene, int kind);

@@ -4,7 +4,9 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "ice/ice.h"
 #include "mpm/mpm.h"
+#include "run/scene_tables.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -341,14 +343,31 @@ static enum status create_marker(const struct sim *sim, const struct gauge *gaug
   return OK;
 }
 
+/* heat into the grid through a side over the last step, W */
+static enum status create_side_heat(const struct sim *sim, const struct gauge *gauge, struct gauge_reader *r)
+{
+  const struct ice *ice = ice_of(sim);
+  int               side = 0;
+  while (side < 2 * sim->grid.dim && strcmp(side_names[side], gauge->on) != 0) side++;
+  if (!ice || !ice->swell_cc || side == 2 * sim->grid.dim)
+    return FAIL(ERR_INPUT, "gauges.%s: there is no heat of \"%s\"; give a side of a scene whose fluid conducts heat",
+                gauge->name, gauge->on);
+  r->number = &ice->now.heat_side[side];
+  r->read = read_wall;
+  snprintf(r->unit, sizeof r->unit, "W");
+  return OK;
+}
+
 /* "force_x", "impulse_x", "displacement_x" of a side or an obstacle */
 static enum status create_wall(const struct sim *sim, const struct gauge *gauge, struct gauge_reader *r)
 {
   const struct mpm *m = mpm_of(sim);
   const char       *dash = strrchr(gauge->of, '_');
   int               wall, axis = dash ? dash[1] - 'x' : -1;
+  if (strcmp(gauge->of, "heat") == 0) return create_side_heat(sim, gauge, r);
   if (!m || !mpm_wall_find(sim, gauge->on, &wall) || axis < 0 || axis >= sim->grid.dim)
-    return FAIL(ERR_INPUT, "gauges.%s: there is no %s of \"%s\"; give an obstacle or a side, and force_x or impulse_x",
+    return FAIL(ERR_INPUT,
+                "gauges.%s: there is no %s of \"%s\"; give an obstacle or a side, and force_x, impulse_x or heat",
                 gauge->name, gauge->of, gauge->on);
   const struct wall_numbers *numbers = &m->now.wall[wall];
   bool                       force = *gauge->of == 'f', impulse = *gauge->of == 'i';

@@ -78,6 +78,7 @@ static void add_wall(const struct scene *scene, const char *on, struct words *wo
   for (int i = 0; i < scene->n_obstacles; i++) obstacle = obstacle || strcmp(scene->obstacles[i].name, on) == 0;
   for (int q = 0; q < (obstacle ? 3 : 2); q++)
     for (int d = 0; d < scene->dim; d++) add_word(words, "", quantities[q], axes[d]);
+  if (!obstacle && fluid_has_energy(&scene->fluid)) names_add(&words->names, "heat");
 }
 
 static void add_ends(const struct scene *scene, struct words *words)

@@ -110,6 +110,7 @@ static enum status check_fluid(struct reader *reader, const struct scene *scene)
   if (fluid->path != &module_ice)
     return reader_fail(reader, "the path %s does not solve the fluid's energy; take fluid.path ice or remove it",
                        fluid->path ? fluid->path->name : "null");
+  if (scene->n_fluids > 1) return reader_fail(reader, "energy is not solved with several fluids; remove it or fluids");
   const struct ice_params *params = scene_module_params(scene, &module_ice);
   if (params->advection || params->shocks) return OK;
   return reader_fail(reader, "heat goes with the flow, which is not followed; set numerics.ice.advection true");

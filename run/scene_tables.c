@@ -145,6 +145,8 @@ static const struct param fluid_params[] = {
      "at the start; where it is given, the fluid's energy is solved"},
     {"conductivity", PARAM_NUMBER, AT(fluid, conductivity), "W/(m K)", 0, 1e9, "0", NULL,
      "of heat, where the fluid's energy is solved"},
+    {"heat_exchange", PARAM_NUMBER, AT(fluid, heat_exchange), "W/(m3 K)", 0, 1e15, "1e6", NULL,
+     "heat that goes over to the grains of a medium, per volume of it and difference of temperature"},
     PARAM_END};
 static const struct entry fluid_entries[] = {
     VALUE("path", fluid_path, fluid, path, "null", "-", "fluid path: the method that moves the fluid"),
@@ -286,7 +288,9 @@ static const struct param gauge_extent[] = {
     PARAM_END};
 static const struct param gauge_wall[] = {
     {"of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL,
-     "force_x of it on the solid over the last step, impulse_x since the start, or displacement_x of an obstacle"},
+     "force_x of it on the solid over the last step, impulse_x since the start, or displacement_x of an obstacle; "
+     "heat, W,"
+     " into the grid through a side over the last step, where the fluid conducts"},
     GAUGE_ON,
     GAUGE_MINUS,
     PARAM_END};
