@@ -159,18 +159,21 @@ enum metric_measure {
   MEASURE_VALUE,
   MEASURE_MEAN,
   MEASURE_FREQUENCY,
-  MEASURE_DECAY,     /* Hz, 1/s: of the damped oscillation of a gauge */
-  MEASURE_DRIFT,     /* largest departure of a gauge from its first value in the span, over that value */
-  MEASURE_CHANGE,    /* of a gauge from the first to the last sample in the span, over the first */
-  MEASURE_GAIN,      /* of a gauge from the first to the last sample in the span */
-  MEASURE_REACH,     /* s: when a gauge has come a share of its way from the first to the last sample in the span */
-  MEASURE_PEAK,      /* of a gauge: maximum of the cubic through the samples in the span ... */
-  MEASURE_PEAK_TIME, /* ... and s, when */
-  MEASURE_SCATTER,   /* rms of a field of points about a plane through the 4 cells around along each axis */
-  MEASURE_ROUGHNESS, /* standard deviation of h2 times the Laplacian of a field */
-  MEASURE_L1         /* mean size of the difference of a field */
+  MEASURE_DECAY,      /* Hz, 1/s: of the damped oscillation of a gauge */
+  MEASURE_DRIFT,      /* largest departure of a gauge from its first value in the span, over that value */
+  MEASURE_CHANGE,     /* of a gauge from the first to the last sample in the span, over the first */
+  MEASURE_GAIN,       /* of a gauge from the first to the last sample in the span */
+  MEASURE_REACH,      /* s: when a gauge has come a share of its way from the first to the last sample in the span */
+  MEASURE_PEAK,       /* of a gauge: maximum of the cubic through the samples in the span ... */
+  MEASURE_PEAK_TIME,  /* ... and s, when */
+  MEASURE_SCATTER,    /* rms of a field of points about a plane through the 4 cells around along each axis */
+  MEASURE_ROUGHNESS,  /* standard deviation of h2 times the Laplacian of a field */
+  MEASURE_L1,         /* mean size of the difference of a field */
+  MEASURE_CREST,      /* the highest value of a field of cells along a line, by a parabola ... */
+  MEASURE_CREST_PLACE /* m: ... and where it is */
 };
-#define MEASURE_WORDS "rms|max|value|mean|frequency|decay|drift|change|gain|reach|peak|peak_time|scatter|roughness|l1"
+#define MEASURE_WORDS                                                                                                  \
+  "rms|max|value|mean|frequency|decay|drift|change|gain|reach|peak|peak_time|scatter|roughness|l1|crest|crest_place"
 
 struct metric {
   char            name[NAME_LENGTH];

@@ -9,7 +9,7 @@
 enum { N = 24, P = N + 1, INNER = N - 1, MOST_STEPS = 20000, QUADRATURE = 64 };
 
 struct cavity {
-  double rayleigh, length, diffusivity, hot, cold, porosity;
+  double rayleigh, length, diffusivity, conductivity, hot, cold, porosity;
 };
 
 static const struct param params[] = {
@@ -18,6 +18,8 @@ static const struct param params[] = {
     {"length", PARAM_NUMBER, offsetof(struct cavity, length), "m", 1e-9, 1e9, "1", NULL, "side L of the square"},
     {"diffusivity", PARAM_NUMBER, offsetof(struct cavity, diffusivity), "m2/s", 1e-15, 1e6, "1", NULL,
      "conductivity of the medium over the liquid's heat capacity per volume"},
+    {"conductivity", PARAM_NUMBER, offsetof(struct cavity, conductivity), "W/(m K)", 1e-12, 1e12, "1", NULL,
+     "of the medium, for heat"},
     {"hot", PARAM_NUMBER, offsetof(struct cavity, hot), "K", -1e9, 1e9, "1", NULL, "temperature at x = 0"},
     {"cold", PARAM_NUMBER, offsetof(struct cavity, cold), "K", -1e9, 1e9, "0", NULL, "temperature at x = L"},
     {"porosity", PARAM_NUMBER, offsetof(struct cavity, porosity), "-", 1e-3, 1, "1", NULL,
@@ -25,7 +27,9 @@ static const struct param params[] = {
     PARAM_END,
 };
 
-enum { NUSSELT, PSI_CENTRE, TEMPERATURE, VEL_X, VEL_Y };
+/* heat: W through every section x, per metre of thickness; turning: m/s, mean of vel_x over the lower half of x = L/2
+ */
+enum { NUSSELT, PSI_CENTRE, TEMPERATURE, VEL_X, VEL_Y, HEAT, TURNING };
 
 /* Values at the places s[i] = (1 - cos(pi i/N))/2 along both axes, [x][y]. */
 struct solution {
@@ -240,19 +244,21 @@ static enum status value(const void *prm, int quantity, int n, const double (*x)
 {
   const struct cavity *c = prm;
   struct solution      q;
-  double               field[P][P], scale = c->diffusivity / (c->length * c->porosity);
+  double               field[P][P], speed = c->diffusivity / (c->length * c->porosity), one;
   (void)t;
   TRY(solve(c->rayleigh, &q));
   for (int i = 0; i < P; i++)
     for (int j = 0; j < P; j++)
-      field[i][j] = quantity == TEMPERATURE  ? c->cold + (c->hot - c->cold) * q.T[i][j]
-                    : quantity == PSI_CENTRE ? q.psi[i][j] * c->diffusivity
-                    : quantity == VEL_X      ? along_y(&q, q.psi, i, j) * scale
-                                             : -along_x(&q, q.psi, i, j) * scale;
+      field[i][j] = quantity == TEMPERATURE ? c->cold + (c->hot - c->cold) * q.T[i][j]
+                    : quantity == VEL_X     ? along_y(&q, q.psi, i, j) * speed
+                                            : -along_x(&q, q.psi, i, j) * speed;
+  one = quantity == NUSSELT      ? nusselt(&q)
+        : quantity == HEAT       ? nusselt(&q) * c->conductivity * (c->hot - c->cold)
+        : quantity == PSI_CENTRE ? interpolate(&q, q.psi, 0.5, 0.5) * c->diffusivity
+                                 : interpolate(&q, q.psi, 0.5, 0.5) * 2 * speed;
+  bool everywhere = quantity == TEMPERATURE || quantity == VEL_X || quantity == VEL_Y;
   for (int i = 0; i < n; i++)
-    v[i] = quantity == NUSSELT      ? nusselt(&q)
-           : quantity == PSI_CENTRE ? interpolate(&q, field, 0.5, 0.5)
-                                    : interpolate(&q, field, x[i][0] / c->length, x[i][1] / c->length);
+    v[i] = everywhere ? interpolate(&q, field, x[i][0] / c->length, x[i][1] / c->length) : one;
   return OK;
 }
 
@@ -275,7 +281,7 @@ const struct reference reference_darcy_cavity = {
     .source = "Chebyshev collocation of the stream function",
     .params = params,
     .param_size = sizeof(struct cavity),
-    .quantities = "nusselt|psi_centre|temperature|vel_x|vel_y",
+    .quantities = "nusselt|psi_centre|temperature|vel_x|vel_y|heat|turning",
     .value = value,
     .scale = scale,
 };

@@ -103,6 +103,7 @@ enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, do
   if (m->metric->measure == MEASURE_SCATTER) return metric_of_scatter(m, sim, difference, result);
   fields_refresh(sim, &m->view);
   if (m->wet.field) fields_refresh(sim, &m->wet);
+  if (metric_is_crest(m->metric)) return metric_of_crest(m, sim, result, expected);
   if (difference)
     for (long i = 0; i < 2 * sim->grid.size; i++) difference[i] = points ? 0 : NAN;
   TRY((points ? add_points : add_cells)(&a, sim));

@@ -46,8 +46,16 @@ double *metric_finish_spread(const struct sim *sim, double *sums);
 double metric_roughness(const struct grid *g, double *difference);
 /** Root mean square of a field of points about a plane through the means of the 4 cells around along each axis, over
  * the points of the region whose cells around all hold points. scratch [SCATTER_SCRATCH grid.size]. */
-enum status metric_of_scatter(struct compiled_metric *m, const struct sim *sim, double *scratch,
-                              double *result) MUST_CHECK;
+enum status        metric_of_scatter(struct compiled_metric *m, const struct sim *sim, double *scratch,
+                                     double *result) MUST_CHECK;
+static inline bool metric_is_crest(const struct metric *m)
+{
+  return m->measure == MEASURE_CREST || m->measure == MEASURE_CREST_PLACE;
+}
+/** The highest value of a field of cells along the longest axis of the region, or its place, less what is expected;
+ * run/metric_crest.c. */
+enum status metric_of_crest(struct compiled_metric *m, const struct sim *sim, double *result,
+                            double *expected) MUST_CHECK;
 /** Value of a series of n samples at a time between two of them. */
 double metric_interpolate(long n, const double *t, const double *v, double at);
 /** Result of a gauge metric from the samples v [n] at t [n] s, before scaling. */

@@ -78,6 +78,9 @@ static enum status find_field(const struct sim *sim, struct compiled_metric *m)
   }
   if (m->view.field->at == AT_CELL && fields_component(sim, "cells.wet", &m->wet, &component) != OK)
     memset(&m->wet, 0, sizeof m->wet);
+  if (metric_is_crest(m->metric) && m->view.field->at != AT_CELL)
+    return FAIL(ERR_INPUT, "metrics.%s.field: crests are known of fields of cells, %s belongs to points",
+                m->metric->name, m->metric->field);
   if (m->metric->measure == MEASURE_SCATTER && m->view.field->at == AT_CELL)
     return FAIL(ERR_INPUT, "metrics.%s.field: scatter is known of fields of points, %s belongs to cells",
                 m->metric->name, m->metric->field);
@@ -99,7 +102,7 @@ static enum status compile(const struct sim *sim, const struct metric *metric, s
   m->single = metric->measure == MEASURE_VALUE || metric->measure == MEASURE_MEAN ||
               metric->measure == MEASURE_FREQUENCY || metric->measure == MEASURE_DECAY ||
               metric->measure == MEASURE_REACH || metric->measure == MEASURE_GAIN || metric->measure == MEASURE_PEAK ||
-              metric->measure == MEASURE_PEAK_TIME;
+              metric->measure == MEASURE_PEAK_TIME || metric_is_crest(metric);
   if (*metric->field) return find_field(sim, m);
   metric_place_gauge(sim->scene, metric->gauge, m->x);
   return OK;
@@ -241,6 +244,7 @@ static void judge(struct metrics *metrics, int i, const struct gauges *gauges, c
   if (m->metric->measure == MEASURE_FREQUENCY) unit = "Hz";
   if (m->metric->measure == MEASURE_DECAY) unit = "1/s";
   if (m->metric->measure == MEASURE_REACH || m->metric->measure == MEASURE_PEAK_TIME) unit = "s";
+  if (m->metric->measure == MEASURE_CREST_PLACE) unit = "m";
   snprintf(metrics->units[i], sizeof metrics->units[i], "%s", relative ? "-" : unit);
   if (loaded) scene_expected(loaded, m->metric->name, &limit);
   *entry = (struct metric_entry){.name = m->metric->name,

@@ -193,7 +193,8 @@ static enum status check_metric_source(struct reader *reader, const struct scene
   bool of_gauge = m->measure == MEASURE_FREQUENCY || m->measure == MEASURE_DECAY || m->measure == MEASURE_DRIFT ||
                   m->measure == MEASURE_CHANGE || m->measure == MEASURE_GAIN || m->measure == MEASURE_REACH ||
                   m->measure == MEASURE_PEAK || m->measure == MEASURE_PEAK_TIME;
-  bool of_field = m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER || m->measure == MEASURE_L1;
+  bool of_field = m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER || m->measure == MEASURE_L1 ||
+                  m->measure == MEASURE_CREST || m->measure == MEASURE_CREST_PLACE;
   at(reader, "metrics.%s", m->name);
   if ((*m->field != '\0') == (*m->gauge != '\0'))
     return reader_fail(reader, "it needs one of \"field\" and \"gauge\"; give exactly one");
@@ -203,8 +204,8 @@ static enum status check_metric_source(struct reader *reader, const struct scene
         "frequency, decay, drift, change, gain, reach and peaks belong to a gauge, not to the field %s; give \"gauge\"",
         m->field);
   if (*m->gauge && of_field)
-    return reader_fail(reader, "roughness, scatter and l1 belong to a field, not to the gauge %s; give \"field\"",
-                       m->gauge);
+    return reader_fail(
+        reader, "roughness, scatter, l1 and crests belong to a field, not to the gauge %s; give \"field\"", m->gauge);
   if (*m->over && !*m->gauge)
     return reader_fail(reader, "\"over\" divides gauges, %s is a field; use \"scale\"", m->field);
   for (int i = 0; i < scene->n_gauges; i++) names_add(&names, scene->gauges[i].name);

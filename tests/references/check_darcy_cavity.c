@@ -87,6 +87,9 @@ START_TEST(units)
   CLOSE(value_at(cavity(), prm, "vel_y", 0.015, 0.06, 0) / per, value_at(cavity(), plain, "vel_y", 0.1, 0.4, 0), 1e-8);
   CLOSE(scale_of(cavity(), prm, "vel_y") / per, 36.6795, 1e-3);
   CLOSE(scale_of(cavity(), prm, "temperature"), 40, 1e-12);
+  set(cavity(), prm, "conductivity", 0.5);
+  CLOSE(value_at(cavity(), prm, "heat", 0, 0, 0), 20 * value_at(cavity(), plain, "nusselt", 0, 0, 0), 1e-9);
+  CLOSE(value_at(cavity(), prm, "turning", 0, 0, 0) / per, -2 * 4.70769, 1e-4);
   free(prm), free(plain);
 }
 END_TEST
