@@ -376,6 +376,7 @@ enum status ice_create(struct sim *sim, void *state)
   ice_classify_faces(sim, ice);
   TRY(ice->several ? start_several(sim, ice) : start_one(sim, ice));
   start_fluxes(sim, ice);
+  if (ice->advects && ice->skeleton) TRY(ice_resist_faces(sim, 0)); /* the first step's limit counts on drag */
   if (ice->params->shocks) TRY(shock_create(sim, ice));
   if (ice->forecast_cc) ice_start_forecast(sim, ice);
   if (ice->advects) ice->now.change = ice_fastest_change(sim, ice, 0);

@@ -185,6 +185,32 @@ START_TEST(roughness)
 }
 END_TEST
 
+/* The crest of a parabola is found between cells; along the longer axis of the region, its mean across the other */
+START_TEST(crest)
+{
+  static const struct shape row = {.kind = SHAPE_BOX, .dim = 2, .min = {-1, 0.05, -1}, .max = {1, 0.25, 1}};
+  struct fake_run           r;
+  fake_create(2, &r);
+  const struct box cells = grid_cells(&r.sim.grid);
+  FOR_BOX_SERIAL(&r.sim.grid, cells, c)
+  {
+    double x[3];
+    grid_centre(&r.sim.grid, c, x);
+    r.state.P_cc[c] = 7 - 3 * (x[0] - 0.133) * (x[0] - 0.133);
+  }
+  struct metric m = metric_of("m", MEASURE_CREST, "P", "");
+  m.region = row;
+  expect(&m, "6.5");
+  ck_assert_double_eq_tol(evaluate_field(&r, &m), 0.5 / 6.5, 1e-11);
+  m = metric_of("m", MEASURE_CREST_PLACE, "P", "");
+  m.region = row;
+  m.scale = 1;
+  expect(&m, "0.1");
+  ck_assert_double_eq_tol(evaluate_field(&r, &m), 0.033, 1e-11);
+  fake_destroy(&r);
+}
+END_TEST
+
 /* A linear field does not scatter; every second column of points off by 2 a: a */
 START_TEST(scatter)
 {
@@ -446,6 +472,7 @@ int main(void)
   tcase_add_test(tests, fields_of_points);
   tcase_add_test(tests, dry_cells_do_not_count);
   tcase_add_test(tests, roughness);
+  tcase_add_test(tests, crest);
   tcase_add_test(tests, scatter);
   tcase_add_test(tests, gauges_over_time);
   tcase_add_test(tests, peaks);
