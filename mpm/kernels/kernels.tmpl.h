@@ -24,34 +24,82 @@ static inline const double *total_stress(const struct p2g_args *a, long p, doubl
   return own;
 }
 
-/* w m (v + C r); h in m */
-static inline void add_momentum(const struct p2g_args *a, const struct stencil *s, double h, long p, double *u)
+/* What a point gives to its nodes, as rows along x. Momentum w m (v + C r) is momentum[.][0] in the row of lowest y and
+ * z and grows by [1] and [2] from a row to the next along y and z, times the weights of y and z. Force -V stress grad w
+ * takes the slope in place of the weight along y in [1], along z in [2]. */
+struct gift {
+  double *at; /* in the tile: its first node's first scalar */
+  ROW     mass, momentum[DIM][DIM], force[DIM][DIM];
+  ROW     w[DIM], d[DIM];       /* of its stencil along y and z, from [1] on */
+  double  yz[N1_Z * ROW_NODES]; /* products of the weights of y and z */
+};
+
+/* h in m */
+static inline void offer_momentum(const struct p2g_args *a, double h, const struct stencil *s, long p, struct gift *g)
 {
-  ROW w = a->mass[p] * s->w[0], wh = h * w, wr = (a->mass[p] * h) * s->wr[0], row[DIM], y[DIM], z[DIM];
-  tile_add_even(u, s, w);
+  ROW w = a->mass[p] * s->w[0], wh = h * w, wr = (a->mass[p] * h) * s->wr[0];
+  g->mass = w;
+  for (int k = 0; k < N1_Z; k++) row_store(g->yz + k * ROW_NODES, along_z(s->w, k, s->w[1]));
   for (int d = 0; d < DIM; d++) {
     const double *C = a->affine + (p * DIM + d) * DIM;
-    double        vel = a->vel[p * DIM + d];
-    if (a->affine) {
-      y[d] = C[1] * wh;
-      z[d] = C[DIM - 1] * wh;
-      row[d] = vel * w + C[0] * wr + s->r[1] * y[d];
-      if (DIM == 3) row[d] += s->r[2] * z[d];
-    } else
-      tile_add_even(u + (1 + d) * PITCH, s, vel * w);
+    ROW           momentum = a->vel[p * DIM + d] * w;
+    for (int e = 1; e < DIM; e++) g->momentum[d][e] = a->affine ? C[e] * wh : (ROW){0};
+    if (a->affine) momentum += C[0] * wr;
+    for (int e = 1; e < DIM; e++) momentum += s->r[e] * g->momentum[d][e];
+    g->momentum[d][0] = momentum;
   }
-  if (a->affine) tile_add_linear(u + PITCH, s, DIM, row, y, z);
 }
 
-/* -V stress grad w; inverse_h in 1/m */
-static inline void add_force(const struct p2g_args *a, const struct stencil *s, double inverse_h, long p, double *u)
+/* inverse_h in 1/m */
+static inline void offer_force(const struct p2g_args *a, double inverse_h, const struct stencil *s, long p,
+                               struct gift *g)
 {
   double        own[6];
   const double *S = total_stress(a, p, own);
   double        factor = -a->volume[p] * inverse_h;
   ROW           w = factor * s->w[0], slope = factor * s->d[0];
+  for (int e = 1; e < DIM; e++) g->w[e] = s->w[e], g->d[e] = s->d[e];
   for (int d = 0; d < DIM; d++)
-    tile_add(u + (1 + DIM + d) * PITCH, s, s->d, S[SYM[d][0]] * slope, S[SYM[d][1]] * w, S[SYM[d][2]] * w);
+    for (int e = 0; e < DIM; e++) g->force[d][e] = S[SYM[d][e]] * (e == 0 ? slope : w);
+}
+
+/* Mass and momentum of n points of one cell: rows of nodes stay in registers meanwhile. u: the first node in the tile
+ */
+static inline void give_momentum(double *u, const struct gift *gift, int n)
+{
+  for (int k = 0; k < N1_Z; k++, u += EDGE * LINE) {
+    ROW row[1 + DIM][N1];
+    for (int q = 0; q < 1 + DIM; q++) rows_load(u + q * PITCH, row[q]);
+    for (const struct gift *g = gift; g < gift + n; g++) {
+      const double *w = g->yz + k * ROW_NODES;
+      for (int j = 0; j < N1; j++) row[0][j] += w[j] * g->mass;
+#pragma GCC unroll 3
+      for (int d = 0; d < DIM; d++) {
+        ROW now = g->momentum[d][0], y = g->momentum[d][1];
+        if (k > 0) now += (double)k * g->momentum[d][DIM - 1];
+        for (int j = 0; j < N1; j++, now += y) row[1 + d][j] += w[j] * now;
+      }
+    }
+    for (int q = 0; q < 1 + DIM; q++) rows_store(u + q * PITCH, row[q]);
+  }
+}
+
+/* their force; u: its first scalar there */
+static inline void give_force(double *u, const struct gift *gift, int n)
+{
+  for (int k = 0; k < N1_Z; k++, u += EDGE * LINE) {
+    ROW row[DIM][N1];
+    for (int q = 0; q < DIM; q++) rows_load(u + q * PITCH, row[q]);
+    for (const struct gift *g = gift; g < gift + n; g++) {
+#pragma GCC unroll 3
+      for (int d = 0; d < DIM; d++) {
+        ROW even = along_z(g->w, k, g->force[d][0]), y = along_z(g->w, k, g->force[d][1]);
+        if (DIM == 3) even += along_z(g->d, k, g->force[d][DIM - 1]);
+        for (int j = 0; j < N1; j++) row[d][j] += g->w[1][j] * even + g->d[1][j] * y;
+      }
+    }
+    for (int q = 0; q < DIM; q++) rows_store(u + q * PITCH, row[q]);
+  }
 }
 
 /* adds `components` scalars of a row of n nodes; node [n][components] */
@@ -79,19 +127,40 @@ static RARE void p2g_widen(const struct kernel_grid *kg, const struct p2g_args *
   tile_clear(t, 1 + 2 * DIM);
 }
 
+/* n <= TEAM points from p on */
+static inline void p2g_team(const struct kernel_grid *kg, const struct p2g_args *a, struct tile *t, const double *low,
+                            long p, int n)
+{
+  struct places places;
+  struct gift   gift[TEAM];
+  bool          force = a->stress || a->pressure;
+  find_places(kg, low, n, a->x + p * DIM, &places);
+  for (int i = 0; i < n; i++) {
+    struct stencil s;
+    find_stencil(kg, t->at_wall, &places, i, &s);
+    if (!tile_holds(t, &s)) p2g_widen(kg, a, t);
+    gift[i].at = tile_at(t, &s);
+    offer_momentum(a, kg->g.h, &s, p + i, gift + i);
+    if (force) offer_force(a, kg->inverse_h, &s, p + i, gift + i);
+  }
+  for (int i = 0, end; i < n; i = end) {
+    double *u = gift[i].at;
+    for (end = i + 1; end < n && gift[end].at == u; end++) continue;
+    give_momentum(u, gift + i, end - i);
+    if (force) give_force(u + (1 + DIM) * PITCH, gift + i, end - i);
+  }
+}
+
 /* scalars of the tile: mass, momentum, force */
 static void p2g(const struct kernel_grid *kg, const struct kernel_run *run, const struct p2g_args *a)
 {
-  struct tile    t;
-  struct stencil s;
+  struct tile t;
+  double      low[TEAM * DIM];
   tile_place(&t, kg, run);
   tile_clear(&t, 1 + 2 * DIM);
-  for (long p = run->begin; p < run->end; p++) {
-    stencil_at(kg, t.at_wall, a->x + p * DIM, &s);
-    if (!tile_holds(&t, &s)) p2g_widen(kg, a, &t);
-    add_momentum(a, &s, kg->g.h, p, tile_at(&t, &s));
-    if (a->stress || a->pressure) add_force(a, &s, kg->inverse_h, p, tile_at(&t, &s));
-  }
+  for (int q = 0; q < TEAM * DIM; q++) low[q] = kg->low[q % DIM];
+  for (long p = run->begin; p < run->end; p += TEAM)
+    p2g_team(kg, a, &t, low, p, run->end - p < TEAM ? (int)(run->end - p) : TEAM);
   p2g_close(kg, a, &t);
 }
 
@@ -194,21 +263,19 @@ static RARE void g2p_widen(const struct kernel_grid *kg, const struct g2p_args *
   g2p_open(kg, a, t);
 }
 
-/* Stencils of so many points are found before the first is used: finding one is a chain of operations that wait for one
- * another, those of several points go side by side. */
-enum { STENCILS = 8 };
-
 /* points [p, p + n); gradv [n][DIM][DIM] */
-static inline void g2p_points(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p, int n,
-                              double *gradv)
+static inline void g2p_points(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, const double *low,
+                              long p, int n, double *gradv)
 {
-  struct stencil s[STENCILS];
-  for (int i = 0; i < n; i += STENCILS) {
-    int end = n - i < STENCILS ? n : i + STENCILS;
-    for (int j = i; j < end; j++) stencil_at(kg, t->at_wall, a->x + (p + j) * DIM, s + j - i);
-    for (int j = i; j < end; j++) {
-      if (!tile_holds(t, s + j - i)) g2p_widen(kg, a, t);
-      g2p_point(kg, a, t, p + j, s + j - i, gradv + j * DIM * DIM);
+  for (int i = 0; i < n; i += TEAM) {
+    int            team = n - i < TEAM ? n - i : TEAM;
+    struct places  places;
+    struct stencil s[TEAM];
+    find_places(kg, low, team, a->x + (p + i) * DIM, &places);
+    for (int j = 0; j < team; j++) find_stencil(kg, t->at_wall, &places, j, s + j);
+    for (int j = 0; j < team; j++) {
+      if (!tile_holds(t, s + j)) g2p_widen(kg, a, t);
+      g2p_point(kg, a, t, p + i + j, s + j, gradv + (i + j) * DIM * DIM);
     }
   }
 }
@@ -216,12 +283,14 @@ static inline void g2p_points(const struct kernel_grid *kg, const struct g2p_arg
 static void g2p(const struct kernel_grid *kg, const struct kernel_run *run, const struct g2p_args *a)
 {
   struct tile t;
+  double      low[TEAM * DIM];
   tile_place(&t, kg, run);
   g2p_open(kg, a, &t);
+  for (int q = 0; q < TEAM * DIM; q++) low[q] = kg->low[q % DIM];
   for (long p = run->begin; p < run->end; p += POINT_BATCH) {
     int    n = run->end - p < POINT_BATCH ? (int)(run->end - p) : POINT_BATCH;
     double own[POINT_BATCH * DIM * DIM], *gradv = a->gradv ? a->gradv + p * DIM * DIM : own;
-    g2p_points(kg, a, &t, p, n, gradv);
+    g2p_points(kg, a, &t, low, p, n, gradv);
     if (a->strain) a->strain(a->context, p, n, gradv);
   }
 }
@@ -324,11 +393,12 @@ static void weights(const struct kernel_grid *kg, const double *x, long *node, d
     for (int j = 0; j < N1; j++)
       for (int i = 0; i < N1; i++, q++) {
         node[q] = grid_at(&kg->g, s.first[0] + i, s.first[1] + j, s.first[2] + k);
-        w[q] = s.w[0][i] * s.w[1][j] * s.w[2][k];
+        double w_z = DIM == 2 ? 1 : s.w[DIM - 1][k], d_z = DIM == 2 ? 0 : s.d[DIM - 1][k];
+        w[q] = s.w[0][i] * s.w[1][j] * w_z;
         if (!gradient) continue;
-        gradient[q][0] = s.d[0][i] * s.w[1][j] * s.w[2][k] * kg->inverse_h;
-        gradient[q][1] = s.w[0][i] * s.d[1][j] * s.w[2][k] * kg->inverse_h;
-        gradient[q][2] = s.w[0][i] * s.w[1][j] * s.d[2][k] * kg->inverse_h;
+        gradient[q][0] = s.d[0][i] * s.w[1][j] * w_z * kg->inverse_h;
+        gradient[q][1] = s.w[0][i] * s.d[1][j] * w_z * kg->inverse_h;
+        gradient[q][2] = s.w[0][i] * s.w[1][j] * d_z * kg->inverse_h;
       }
 }
 

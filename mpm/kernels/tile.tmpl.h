@@ -11,7 +11,7 @@ enum { EDGE = BLOCK_3D + 2 * BLOCK_MARGIN + 3, EDGE_Z = EDGE, N1_Z = N1 };
 /* Rows are padded: four nodes from any on lie within PITCH. The nodes of points that have not left the block start
  * where a cache line does, LEAD doubles further the margin before them; in 3D they fill one line. LINE: from a row to
  * the next along y. */
-enum { CACHE_LINE = 8, PITCH = 16, LEAD = CACHE_LINE - BLOCK_MARGIN, LINE = LANES * PITCH };
+enum { CACHE_LINE = 8, PITCH = 16, LEAD = DIM == 2 ? 0 : CACHE_LINE - BLOCK_MARGIN, LINE = LANES * PITCH };
 _Static_assert(EDGE + ROW_NODES - 1 <= PITCH, "a row of the tile holds the nodes of a block and its margin");
 
 struct tile {
@@ -21,12 +21,23 @@ struct tile {
   bool at_wall;            /* some may be a ghost of a modified wall */
 };
 
-/* first node, and for up to four nodes along every axis weights, weights times distance r, derivatives; lengths in h */
+/* Where so many points lie is found before the first of them is used: finding it is a chain of operations that wait for
+ * one another, those of several points go side by side. */
+enum { TEAM = 8 };
+
+/* of every point and axis the first node of its stencil, and how far in h it is beyond the node that the basis starts
+ * from (basis.h) */
+struct places {
+  int    first[TEAM * DIM];
+  double a[TEAM * DIM];
+};
+
+/* for up to four nodes along every axis weights, weights times distance r, derivatives; lengths in h */
 struct stencil {
   int    first[3];
   bool   folded; /* a wall has changed the weights, and with them their second moment */
   double r[3];   /* of the first node */
-  ROW    w[3], wr[3], d[3];
+  ROW    w[DIM], wr[DIM], d[DIM];
 };
 
 /* weights or derivatives where a node beyond a wall is the linear extrapolation of the two inside: q_-1 = 2 q_0 - q_1
@@ -51,24 +62,44 @@ static inline bool fold_axis(const struct kernel_grid *kg, int axis, int first, 
   return low || high;
 }
 
+/* low [TEAM][DIM]: lower corner of the grid, again and again */
+static inline void find_places(const struct kernel_grid *kg, const double *low, int n, const double *x,
+                               struct places *places)
+{
+  double inverse_h = kg->inverse_h;
+  for (int q = 0; q < n * DIM; q++) {
+    double position = (x[q] - low[q]) * inverse_h, nearest = floor(position + SHIFT);
+    places->a[q] = position - nearest;
+    places->first[q] = (int)nearest + FIRST;
+  }
+}
+
+/* of point i of the team */
+static inline void find_stencil(const struct kernel_grid *kg, bool at_wall, const struct places *places, int i,
+                                struct stencil *s)
+{
+  bool folded = false;
+  s->first[2] = 0;
+  for (int axis = 0; axis < DIM; axis++) {
+    int    first = places->first[i * DIM + axis];
+    double a = places->a[i * DIM + axis];
+    ROW    w, d;
+    axis_weights(a, kg->half_width[axis] * kg->inverse_h, &w, &d);
+    if (N1 > 2 && at_wall) folded |= fold_axis(kg, axis, first, &w, &d);
+    s->first[axis] = first;
+    s->r[axis] = FIRST - a;
+    s->w[axis] = w;
+    s->d[axis] = d;
+    s->wr[axis] = w * ((ROW){FIRST, FIRST + 1, FIRST + 2, FIRST + 3} - a);
+  }
+  s->folded = folded;
+}
+
 static inline void stencil_at(const struct kernel_grid *kg, bool at_wall, const double *x, struct stencil *s)
 {
-  ROW     position = ((ROW){x[0], x[1], DIM == 3 ? x[2] : 0, 0} - row_load(kg->low)) * kg->inverse_h;
-  ROW     nearest = row_floor(position + SHIFT), a = position - nearest;
-  ROW_INT first = __builtin_convertvector(nearest, ROW_INT) + FIRST;
-  s->folded = false;
-  for (int axis = 0; axis < DIM; axis++) {
-    s->first[axis] = first[axis];
-    axis_weights(a[axis], kg->half_width[axis] * kg->inverse_h, &s->w[axis], &s->d[axis]);
-    if (N1 > 2 && at_wall) s->folded |= fold_axis(kg, axis, first[axis], &s->w[axis], &s->d[axis]);
-    s->r[axis] = FIRST - a[axis];
-    s->wr[axis] = s->w[axis] * ((ROW){FIRST, FIRST + 1, FIRST + 2, FIRST + 3} - a[axis]);
-  }
-#if DIM == 2
-  s->first[2] = 0;
-  s->w[2] = (ROW){1, 0, 0, 0};
-  s->wr[2] = s->d[2] = (ROW){0};
-#endif
+  struct places place;
+  find_places(kg, kg->low, 1, x, &place);
+  find_stencil(kg, at_wall, &place, 0, s);
 }
 
 /* nodes of points up to `margin` cells outside the block; of the ghosts one layer, the only one that holds something */
@@ -115,11 +146,15 @@ static inline double (*tile_row(struct tile *t, int i, int j, int k))[PITCH]
     for (int j = (t)->first[1]; j < (t)->first[1] + (t)->count[1]; j++)                                                \
       for (double(*row)[PITCH] = tile_row(t, (t)->first[0], j, k), (*once_)[PITCH] = row; once_; once_ = NULL)
 
-/* empties the first n scalars */
+/* empties the first n scalars: in 2D whole rows, which follow one another */
 static inline void tile_clear(struct tile *t, int n)
 {
   FOR_TILE_ROWS(t, j, k, row)
-  for (int q = 0; q < n; q++) memset(row[q], 0, (size_t)(t->count[0] + ROW_NODES - N1) * sizeof(double));
+  for (int q = 0; q < n; q++)
+    if (DIM == 2)
+      memset(row[q], 0, sizeof row[q]);
+    else
+      for (int i = 0; i < t->count[0] + ROW_NODES - N1; i += ROW_NODES) row_store(row[q] + i, (ROW){0});
 }
 
 /* Empties what stands behind the nodes in use of the first n scalars: a row of a basis of fewer than four nodes reaches
@@ -136,13 +171,27 @@ static inline double *tile_at(struct tile *t, const struct stencil *s)
   return *tile_row(t, s->first[0], s->first[1], s->first[2]);
 }
 
+/* a row times the weight of layer k along z */
+static inline ROW along_z(const ROW *w, int k, ROW row) { return DIM == 2 ? row : w[DIM - 1][k] * row; }
+
+/* the N1 rows along y of a scalar */
+static inline void rows_load(const double *u, ROW *row)
+{
+  for (int j = 0; j < N1; j++) row[j] = row_load(u + j * LINE);
+}
+
+static inline void rows_store(double *u, const ROW *row)
+{
+  for (int j = 0; j < N1; j++) row_store(u + j * LINE, row[j]);
+}
+
 /* adds to the scalar u of a point's nodes: rows along x that go with the weights of the other axes, and along y and z
  * with `slant` (wr or d of the stencil) instead of the weight. 2D has no z */
 static inline void tile_add(double *u, const struct stencil *s, const ROW *slant, ROW even, ROW y, ROW z)
 {
   for (int k = 0; k < N1_Z; k++) {
-    ROW e = s->w[2][k] * even, f = s->w[2][k] * y;
-    if (DIM == 3) e += slant[2][k] * z;
+    ROW e = along_z(s->w, k, even), f = along_z(s->w, k, y);
+    if (DIM == 3) e += along_z(slant, k, z);
     for (int j = 0; j < N1; j++) {
       double *row = u + (k * EDGE + j) * LINE;
       row_store(row, row_load(row) + s->w[1][j] * e + slant[1][j] * f);
@@ -150,28 +199,11 @@ static inline void tile_add(double *u, const struct stencil *s, const ROW *slant
   }
 }
 
-/* Adds w times something that grows linearly over the nodes of a point, to n scalars. row: along x at the lowest y and
- * z, times the weights of x; it grows by y and z from a row to the next. */
-static inline void tile_add_linear(double *u, const struct stencil *s, int n, const ROW *row, const ROW *y,
-                                   const ROW *z)
-{
-  for (int k = 0; k < N1_Z; k++) {
-    ROW now[LANES], w = s->w[2][k] * s->w[1];
-    for (int q = 0; q < n; q++) now[q] = DIM == 3 && k > 0 ? row[q] + (double)k * z[q] : row[q];
-    for (int j = 0; j < N1; j++)
-      for (int q = 0; q < n; q++) {
-        double *node = u + (k * EDGE + j) * LINE + q * PITCH;
-        row_store(node, row_load(node) + w[j] * now[q]);
-        now[q] += y[q];
-      }
-  }
-}
-
 /* the same for what has no slant */
 static inline void tile_add_even(double *u, const struct stencil *s, ROW even)
 {
   for (int k = 0; k < N1_Z; k++) {
-    ROW e = s->w[2][k] * even;
+    ROW e = along_z(s->w, k, even);
     for (int j = 0; j < N1; j++) {
       double *row = u + (k * EDGE + j) * LINE;
       row_store(row, row_load(row) + s->w[1][j] * e);
@@ -230,7 +262,7 @@ static inline ROW tile_sum_even(const double *u, const struct stencil *s)
   for (int k = 0; k < N1_Z; k++) {
     ROW w = {0};
     for (int j = 0; j < N1; j++) w += s->w[1][j] * row_load(u + (k * EDGE + j) * LINE);
-    all = DIM == 2 ? w : all + s->w[2][k] * w;
+    all = DIM == 2 ? w : all + along_z(s->w, k, w);
   }
   return all;
 }
