@@ -4,14 +4,15 @@
 
 #include "constitutive/vector.h"
 
-/* The deviator over its size sqrt(J2) is x (N - (I - N)/2) + B: N projects on the axis of x, the principal value that
- * is farthest from the others; B, with principal values -radius and +radius, lies in the plane across. No axis of that
- * plane is needed, so equal values are no special case. */
+/* A stress is centre I + alone N + B: N projects on one principal axis, whose value is `alone` above `centre`, the mean
+ * of the others; B, with principal values -radius and +radius, lies in the plane across. No axis of that plane is
+ * needed, so equal values are no special case. In general the one value is the farthest from the others; of a stress of
+ * the plane xy it is zz. */
 struct principal {
-  VECTOR mean, size; /* Pa */
-  VECTOR x, radius;  /* - */
-  VECTOR N[6], B[6]; /* - */
-  VECTOR value[3];   /* Pa, ascending */
+  VECTOR N[6];         /* - */
+  VECTOR B[6], radius; /* in a unit of their own */
+  VECTOR value[3];     /* Pa, ascending */
+  MASK   low, high;    /* the one value is the lowest, the highest */
 };
 
 void principal_split(const VECTOR stress[6], struct principal *p);

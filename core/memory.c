@@ -4,9 +4,23 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { ALIGNMENT = 64 };
+/* bytes: of a cache line, and of a huge page */
+enum { ALIGNMENT = 64, HUGE_PAGE = 1 << 21 };
 static long calls;
+
+/* Big blocks ask for huge pages: a sweep over many arrays waits for the table of small ones. */
+static void *reserve(size_t bytes)
+{
+  if (bytes < 2 * HUGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
+  void *block = NULL;
+  if (posix_memalign(&block, HUGE_PAGE, bytes) != 0) return NULL;
+#ifdef MADV_HUGEPAGE
+  madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE); /* a wish: without them all works too */
+#endif
+  return block;
+}
 
 enum status memory_new(size_t n, size_t size, void *pointer)
 {
@@ -17,7 +31,7 @@ enum status memory_new(size_t n, size_t size, void *pointer)
   if (bytes == 0) bytes = ALIGNMENT;
 #pragma omp atomic
   calls++;
-  block = aligned_alloc(ALIGNMENT, bytes);
+  block = reserve(bytes);
   if (!block) return FAIL(ERR_ENVIRONMENT, "memory: no room for %zu bytes; use a coarser grid", bytes);
   memset(block, 0, bytes);
   memcpy(pointer, &block, sizeof block);

@@ -18,6 +18,18 @@ static void random_axes(uint64_t *seed, double V[3][3])
     }
 }
 
+/* one axis is z, whichever value it has: a stress of the plane xy */
+static void axes_in_plane(uint64_t *seed, double V[3][3])
+{
+  double angle = M_PI * battery_random(seed), c = cos(angle), s = sin(angle);
+  int    across = (int)(1.5 + 1.5 * battery_random(seed)) % 3, first = (across + 1) % 3, second = (across + 2) % 3;
+  memset(V, 0, 9 * sizeof(double));
+  V[2][across] = 1.0;
+  V[0][first] = V[1][second] = c;
+  V[1][first] = s;
+  V[0][second] = -s;
+}
+
 static void assemble(double V[3][3], const double value[3], double s[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -47,7 +59,10 @@ static void split_and_join(uint64_t *seed, double *worst_value, double *worst_st
   struct principal p;
   for (int i = 0; i < LANES; i++) {
     double V[3][3], s[6], other[3];
-    random_axes(seed, V);
+    if (battery_random(seed) < 0.0)
+      axes_in_plane(seed, V);
+    else
+      random_axes(seed, V);
     random_values(seed, known[i]);
     assemble(V, known[i], s);
     for (int k = 0; k < 6; k++) stress[k][i] = s[k];
