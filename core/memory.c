@@ -1,6 +1,7 @@
 /* The only malloc. */
 #include "core/memory.h"
 
+#include <malloc.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,10 +11,15 @@
 enum { ALIGNMENT = 64, HUGE_PAGE = 1 << 21 };
 static long calls;
 
-/* Big blocks ask for huge pages: a sweep over many arrays waits for the table of small ones. */
+/* Big blocks ask for huge pages: a sweep over many arrays waits for the table of small ones. Each is a mapping of its
+ * own, which goes back whole when it is freed. */
 static void *reserve(size_t bytes)
 {
   if (bytes < 2 * HUGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
+#ifdef M_MMAP_THRESHOLD
+  mallopt(M_MMAP_THRESHOLD, HUGE_PAGE); /* fixed, or it would grow with every block that is freed */
+  mallopt(M_MMAP_MAX, 1 << 16);         /* a library of the solvers' forbids all when it is loaded */
+#endif
   void *block = NULL;
   if (posix_memalign(&block, HUGE_PAGE, bytes) != 0) return NULL;
 #ifdef MADV_HUGEPAGE

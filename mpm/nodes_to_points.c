@@ -4,8 +4,6 @@
 #include "constitutive/constitutive.h"
 #include "core/parallel.h"
 
-#include <string.h>
-
 /* what a fluid gave to all bodies together (2.4), each takes by its mass */
 enum status mpm_share_push(struct sim *sim, double dt)
 {
@@ -36,7 +34,8 @@ enum status mpm_advance_nodes(struct sim *sim, double dt)
   sim_gravity(sim, sim->t + 0.5 * dt, gravity);
   for (int b = 0; b < m->n_bodies; b++) {
     const struct body_nodes *own = &m->bodies[b];
-    memcpy(own->vel_new_nc, own->vel_nc, (size_t)(g->size * dim) * sizeof(double));
+    PARALLEL_FOR
+    for (long q = 0; q < g->size * dim; q++) own->vel_new_nc[q] = own->vel_nc[q];
     FOR_BOX(g, nodes, c)
     if (own->mass_nc[c] > m->mass_floor)
       for (int d = 0; d < dim; d++)

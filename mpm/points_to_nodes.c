@@ -7,8 +7,6 @@
 #include "core/parallel.h"
 #include "core/tensor.h"
 
-#include <string.h>
-
 enum status mpm_sort_points(struct sim *sim, double dt)
 {
   (void)dt;
@@ -30,7 +28,8 @@ enum status mpm_sort_now(struct sim *sim, struct mpm *m)
 
 static void clear(const struct grid *g, int n, double *field)
 {
-  memset(field, 0, (size_t)(g->size * n) * sizeof *field);
+  PARALLEL_FOR
+  for (long q = 0; q < g->size * n; q++) field[q] = 0;
 }
 
 /* whether points of the group move and belong to the body */

@@ -56,9 +56,10 @@ static enum status create_points(const struct scene *scene, const struct plan *p
   int  groups[N_SETS];
   TRY(sim_count_points(scene, plan, n, groups));
   sim->n_markers = (int)n[COUNT_MARKERS];
+  int most = scene->dim == 3 ? 9 : 6; /* components of a field: a matrix, a symmetric one */
+  if (scene->n_history > most) most = scene->n_history;
   for (int s = 0; s < N_SETS; s++)
-    if (n[s] > 0)
-      TRY(points_create(&sim->grid, n[s], groups[s], scene->n_history > 9 ? scene->n_history : 9, &sim->points[s]));
+    if (n[s] > 0) TRY(points_create(&sim->grid, n[s], groups[s], most, &sim->points[s]));
   return OK;
 }
 

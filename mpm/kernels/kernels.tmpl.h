@@ -164,33 +164,42 @@ static void p2g(const struct kernel_grid *kg, const struct kernel_run *run, cons
   p2g_close(kg, a, &t);
 }
 
-/* what a point gathers: sum w v r (in h; from which the affine matrix is made), w v, v grad w (in 1/h; then 1/s), and w
- * of the change of v */
-struct motion {
-  double affine[DIM * DIM], vel[DIM], gradient[DIM * DIM], change[DIM];
-};
+/* What a point gathers: sum w v r (in h; from which the affine matrix is made), w v, v grad w (in 1/h), and w of the
+ * change of v. Matrices begin with a row of sums, so that they leave from registers. */
+#if DIM == 2
+enum { AFFINE = 0, GRADIENT = 4, VELOCITY = 8, CHANGE = 10, SUMS = 12 };
+#else
+enum { AFFINE = 0, VELOCITY = 9, GRADIENT = 12, CHANGE = 21, SUMS = 24 };
+#endif
 
-static inline void gather_motion(const double *u, const struct stencil *s, struct motion *motion)
+static inline void gather_motion(const double *u, const struct stencil *s, ROW sums[SUMS / ROW_NODES])
 {
-  enum { N = sizeof *motion / sizeof(double), VEL = DIM * DIM, GRADIENT = VEL + DIM, CHANGE = GRADIENT + DIM * DIM };
-  ROW    of[N]; /* to be summed over their lanes */
-  double sums[N];
+  ROW of[SUMS]; /* to be summed over their lanes */
 #pragma GCC unroll 3
   for (int d = 0; d < DIM; d++) {
     struct sums q;
     tile_sum(u + d * PITCH, s, &q);
-    ROW *r = of + d * DIM, *gradient = of + GRADIENT + d * DIM;
+    ROW *r = of + AFFINE + d * DIM, *gradient = of + GRADIENT + d * DIM;
     r[0] = s->wr[0] * q.w;
     r[1] = s->w[0] * q.ry;
     gradient[0] = s->d[0] * q.w;
     gradient[1] = s->w[0] * q.dy;
     if (DIM == 3) r[DIM - 1] = s->w[0] * q.rz;
     if (DIM == 3) gradient[DIM - 1] = s->w[0] * q.dz;
-    of[VEL + d] = s->w[0] * q.w;
+    of[VELOCITY + d] = s->w[0] * q.w;
     of[CHANGE + d] = s->w[0] * tile_sum_even(u + (DIM + d) * PITCH, s);
   }
-  for (int q = 0; q < N; q += 4) row_store(sums + q, row_sums(of[q], of[q + 1], of[q + 2], of[q + 3]));
-  memcpy(motion, sums, sizeof *motion);
+  for (int q = 0; q < SUMS; q += ROW_NODES) sums[q / ROW_NODES] = row_sums(of[q], of[q + 1], of[q + 2], of[q + 3]);
+}
+
+static inline double sum_at(const ROW *sums, int q) { return sums[q / ROW_NODES][q % ROW_NODES]; }
+
+/* a matrix of the sums, from `first` on, times a factor */
+static inline void store_matrix(const ROW *sums, int first, double factor, double *matrix)
+{
+  int rows = DIM * DIM / ROW_NODES;
+  for (int q = 0; q < rows; q++) row_store(matrix + q * ROW_NODES, sums[first / ROW_NODES + q] * factor);
+  for (int q = rows * ROW_NODES; q < DIM * DIM; q++) matrix[q] = sum_at(sums, first + q) * factor;
 }
 
 /* second moment of the weights along an axis, h2: D of T(28); x: place of the point */
@@ -201,20 +210,17 @@ static inline double axis_moment(const struct kernel_grid *kg, const struct sten
   return m;
 }
 
-/* Affine velocity matrix B D^-1, T(28). Near a modified wall D shrinks; the velocity gradient where it vanishes. */
-static inline void finish_motion(const struct kernel_grid *kg, const struct stencil *s, const double *x,
-                                 struct motion *now)
+/* in h2: where the moment is not the same everywhere, 1 until it is known */
+static const double usual_moment = moment > 0 ? moment : 1;
+
+/* Affine velocity matrix B D^-1, T(28), that was made with the usual D. Near a modified wall D shrinks; the velocity
+ * gradient where it vanishes. */
+static inline void correct_affine(const struct kernel_grid *kg, const struct stencil *s, const double *x,
+                                  const double *gradv, double *affine)
 {
-  double inverse_h = kg->inverse_h;
-  for (int q = 0; q < DIM * DIM; q++) now->gradient[q] *= inverse_h;
-  if (moment > 0 && !s->folded) {
-    for (int q = 0; q < DIM * DIM; q++) now->affine[q] *= inverse_h * (1 / moment);
-    return;
-  }
   for (int e = 0; e < DIM; e++) {
     double m = axis_moment(kg, s, x, e);
-    for (int q = e; q < DIM * DIM; q += DIM)
-      now->affine[q] = m > 0.05 ? now->affine[q] * inverse_h / m : now->gradient[q];
+    for (int q = e; q < DIM * DIM; q += DIM) affine[q] = m > 0.05 ? affine[q] * (usual_moment / m) : gradv[q];
   }
 }
 
@@ -222,16 +228,17 @@ static inline void finish_motion(const struct kernel_grid *kg, const struct sten
 static inline void g2p_point(const struct kernel_grid *kg, const struct g2p_args *a, struct tile *t, long p,
                              const struct stencil *s, double *gradv)
 {
-  struct motion now;
-  double       *x = a->x + p * DIM, *vel = a->vel + p * DIM;
-  gather_motion(tile_at(t, s), s, &now);
-  finish_motion(kg, s, x, &now);
-  if (a->affine) memcpy(a->affine + p * DIM * DIM, now.affine, sizeof now.affine);
-  memcpy(gradv, now.gradient, sizeof now.gradient);
+  ROW     sums[SUMS / ROW_NODES];
+  double *x = a->x + p * DIM, *vel = a->vel + p * DIM, *affine = a->affine + p * DIM * DIM;
+  gather_motion(tile_at(t, s), s, sums);
+  store_matrix(sums, GRADIENT, kg->inverse_h, gradv);
+  if (a->affine) store_matrix(sums, AFFINE, kg->inverse_h * (1 / usual_moment), affine);
+  if (a->affine && (moment == 0 || s->folded)) correct_affine(kg, s, x, gradv, affine);
   for (int d = 0; d < DIM; d++) {
-    vel[d] = a->beta * now.vel[d] + (1 - a->beta) * (vel[d] + now.change[d]);
-    x[d] += a->dt * now.vel[d];
-    if (a->displacement) a->displacement[p * DIM + d] += a->dt * now.vel[d];
+    double now = sum_at(sums, VELOCITY + d);
+    vel[d] = a->beta * now + (1 - a->beta) * (vel[d] + sum_at(sums, CHANGE + d));
+    x[d] += a->dt * now;
+    if (a->displacement) a->displacement[p * DIM + d] += a->dt * now;
   }
 }
 
