@@ -21,13 +21,6 @@ struct polynomial {
   VECTOR a, b, c;
 };
 
-/* component k of eight records of so many doubles: in registers, as a detour over memory would wait for every store */
-static inline void gather_lanes(const double *record, int width, int k, VECTOR *v)
-{
-  const double *a = record + k, *b = a + 4L * width;
-  *v = (VECTOR){a[0], a[width], a[2 * width], a[3 * width], b[0], b[width], b[2 * width], b[3 * width]};
-}
-
 static void load(int m, const double *dF, const double *stress, struct step *s, struct corotate_group *g)
 {
   double own_dF[9 * LANES] = {0}, own_stress[6 * LANES] = {0};
@@ -37,9 +30,9 @@ static void load(int m, const double *dF, const double *stress, struct step *s, 
     for (int i = m; i < LANES; i++) own_dF[9 * i] = own_dF[9 * i + 4] = own_dF[9 * i + 8] = 1;
     dF = own_dF, stress = own_stress;
   }
-  for (int k = 0; k < 9; k++) gather_lanes(dF, 9, k, &s->G[k]);
+  for (int k = 0; k < 9; k++) vector_gather(dF, 9, k, &s->G[k]);
   for (int k = 0; k < 9; k += 4) s->G[k] -= 1.0;
-  for (int k = 0; k < 6; k++) gather_lanes(stress, 6, k, &g->stress[k]);
+  for (int k = 0; k < 6; k++) vector_gather(stress, 6, k, &g->stress[k]);
 }
 
 /* E = G + G^T + G^T G */

@@ -90,6 +90,7 @@ static void read_soil(const void *prm, struct soil *soil)
 {
   const struct mohr_coulomb *m = prm;
   double                     residual = radians(fmin(m->residual_friction, m->friction));
+  bool                       same = m->residual_friction >= m->friction;
   soil->elastic.lambda = isotropic_lambda(prm);
   soil->elastic.shear = isotropic_shear(prm);
   soil->elastic.bulk = soil->elastic.lambda + 2.0 / 3.0 * soil->elastic.shear;
@@ -106,8 +107,8 @@ static void read_soil(const void *prm, struct soil *soil)
   soil->rowe = m->dilatancy == ROWE;
   soil->sin_phi = sin(soil->phi);
   soil->cos_phi = cos(soil->phi);
-  soil->sin_residual = sin(residual);
-  soil->cos_gain = cos(residual) - soil->cos_phi;
+  soil->sin_residual = same ? soil->sin_phi : sin(residual);
+  soil->cos_gain = same ? 0.0 : cos(residual) - soil->cos_phi;
   soil->sin_most = soil->rowe ? sin(radians(fmin(m->dilation, m->friction))) : sin(soil->psi);
   read_flow(m, soil);
 }
@@ -344,13 +345,14 @@ static double excess(const struct coulomb_elastic *e, double phi, double psi)
 /* Points that have yielded may do so again. */
 static double wave_speed(const void *prm, int n, const double *rb, const double *stress, const double *history)
 {
-  struct soil soil;
-  double      most = 0.0, elastic = isotropic_wave_speed(prm, n, rb, stress, history);
-  for (int p = 0; p < n; p++) most = history[p] > most ? history[p] : most;
-  if (!(most > 0.0)) return elastic;
-  read_soil(prm, &soil);
-  double psi = soil.rowe ? 0.0 : soil.psi - soil.psi_loss;
-  return elastic * sqrt(1.0 + excess(&soil.elastic, soil.sin_phi, sin(psi)) / isotropic_oedometer(prm));
+  const struct mohr_coulomb *m = prm;
+  double                     elastic = isotropic_wave_speed(prm, n, rb, stress, history);
+  struct coulomb_elastic     e = {.lambda = isotropic_lambda(prm), .shear = isotropic_shear(prm)};
+  bool                       yielded = false;
+  for (int p = 0; p < n; p++) yielded |= history[p] > 0.0;
+  if (!yielded) return elastic;
+  double psi = isinf(m->dilation) || m->dilatancy == ROWE ? 0.0 : fmin(m->dilation, m->residual_dilation);
+  return elastic * sqrt(1.0 + excess(&e, sin(radians(m->friction)), sin(radians(psi))) / isotropic_oedometer(prm));
 }
 
 static const char *const history_names[] = {"plastic_strain"};

@@ -16,6 +16,13 @@ static inline void vector_sqrt(const VECTOR *a, VECTOR *root)
   for (int i = 0; i < LANES; i++) (*root)[i] = sqrt((*a)[i]);
 }
 
+/* component k of eight records of so many doubles: in registers, as a detour over memory would wait for every store */
+static inline void vector_gather(const double *record, int width, int k, VECTOR *v)
+{
+  const double *a = record + k, *b = a + 4L * width;
+  *v = (VECTOR){a[0], a[width], a[2 * width], a[3 * width], b[0], b[width], b[2 * width], b[3 * width]};
+}
+
 static inline int vector_any(const MASK *mask)
 {
   long any = 0;

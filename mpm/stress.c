@@ -18,13 +18,15 @@ struct batch {
 };
 
 /* dF = I + dt grad v as 3 x 3, nothing happens across the plane in 2D; volume <- det dF volume. gradv [n][dim][dim] */
-static void strain_batch(int dim, double dt, int n, const double *gradv, double (*dF)[9], double *volume)
+static void strain_batch(int dim, double dt, int n, const double *restrict gradv, double (*restrict dF)[9],
+                         double *restrict volume)
 {
   for (int i = 0; i < n && dim == 2; i++) {
     const double *L = gradv + i * 4;
-    double        own[9] = {1 + dt * L[0], dt * L[1], 0, dt * L[2], 1 + dt * L[3], 0, 0, 0, 1};
-    volume[i] *= own[0] * own[4] - own[1] * own[3];
-    memcpy(dF[i], own, sizeof own);
+    double        xx = 1 + dt * L[0], xy = dt * L[1], yx = dt * L[2], yy = 1 + dt * L[3], *own = dF[i];
+    own[0] = xx, own[1] = xy, own[3] = yx, own[4] = yy;
+    own[2] = own[5] = own[6] = own[7] = 0, own[8] = 1;
+    volume[i] *= xx * yy - xy * yx;
   }
   for (int i = 0; i < n && dim == 3; i++) {
     for (int q = 0; q < 9; q++) dF[i][q] = dt * gradv[i * 9 + q] + (q % 4 == 0);
@@ -84,8 +86,8 @@ static void survey_speeds(const struct mpm *m, const struct batch *b, const doub
     double v2 = dim == 2 ? vel[2 * i] * vel[2 * i] + vel[2 * i + 1] * vel[2 * i + 1]
                          : vel[3 * i] * vel[3 * i] + vel[3 * i + 1] * vel[3 * i + 1] + vel[3 * i + 2] * vel[3 * i + 2];
     most = v2 > most ? v2 : most;
-    rb[i] = m->mass_p[b->first + i] / m->volume_p[b->first + i];
   }
+  for (int i = 0; i < b->n; i++) rb[i] = m->mass_p[b->first + i] / m->volume_p[b->first + i];
   double wave = model->wave_speed(b->material->model_params, b->n, rb, m->stress_p + b->first * 6, history);
   seen[SEEN_SPEED] = fmax(seen[SEEN_SPEED], sqrt(most));
   seen[SEEN_WAVE] = fmax(seen[SEEN_WAVE], wave);
