@@ -403,4 +403,12 @@ bool function_varies_in_space(const struct function *f)
   return false;
 }
 
+int function_rows(const struct function *f, const double **t, const double **v)
+{
+  if (!f->expression || f->expression->rows == 0) return 0;
+  *t = f->expression->t;
+  *v = f->expression->v;
+  return f->expression->rows;
+}
+
 const char *function_text(const struct function *f) { return f->expression ? f->expression->text : NULL; }

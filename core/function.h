@@ -25,6 +25,8 @@ void        function_destroy(struct function *f);
 double function_value(const struct function *f, const double x[3], double t);
 /** Whether x, y or z occur in it. */
 bool function_varies_in_space(const struct function *f);
+/** Rows of a table, their times t [n] s and values v [n]; 0: it is none. */
+int function_rows(const struct function *f, const double **t, const double **v);
 /** The text it was parsed from; NULL for a constant or a table. */
 const char *function_text(const struct function *f);
 

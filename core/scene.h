@@ -54,7 +54,9 @@ struct fluid {
   const struct drag_law *drag;
   void                  *drag_params;
   struct shape           region;
-  struct function        velocity[3];   /* m/s at the start */
+  struct function        velocity[3];   /* m/s at the start; of a prescribed motion always, times */
+  struct function        strength;      /* -, of t, from -1 to 1 */
+  int                    prescribed;    /* 1: that velocity carries the fluid, which has no pressure */
   struct function        pressure;      /* Pa (gauge) at the start, where the start is not at rest */
   struct function        temperature;   /* K at the start; the number 0: energy is not solved */
   double                 conductivity;  /* W/(m K) */
@@ -130,9 +132,11 @@ enum gauge_kind {
   GAUGE_TRACER,
   GAUGE_LOAD,
   GAUGE_WALL,
-  GAUGE_EXTENT
+  GAUGE_EXTENT,
+  GAUGE_LEVEL,
+  GAUGE_LEVELS
 };
-#define GAUGE_WORDS "point|line|integral|mean|tracer|load|wall|extent"
+#define GAUGE_WORDS "point|line|integral|mean|tracer|load|wall|extent|level|levels"
 
 struct gauge {
   char   name[NAME_LENGTH];
@@ -145,6 +149,9 @@ struct gauge {
   bool   connected;          /* GAUGE_EXTENT: of the largest cluster */
   struct shape region;       /* of integrals and means */
 };
+
+/** Whether a gauge has a column for every sample of a line. */
+static inline bool gauge_is_line(const struct gauge *g) { return g->kind == GAUGE_LINE || g->kind == GAUGE_LEVELS; }
 
 struct reference_use {
   char                    name[NAME_LENGTH];
@@ -166,6 +173,12 @@ enum metric_measure {
   MEASURE_REACH,      /* s: when a gauge has come a share of its way from the first to the last sample in the span */
   MEASURE_PEAK,       /* of a gauge: maximum of the cubic through the samples in the span ... */
   MEASURE_PEAK_TIME,  /* ... and s, when */
+  MEASURE_RISE,       /* largest rise of a gauge above its least value so far in the span */
+  MEASURE_EXCESS,     /* most by which a gauge exceeds what is expected in the span, 0 if it never does */
+  MEASURE_FIT,        /* rms of a gauge at the rows of a table, after the time shift that makes it least */
+  MEASURE_PROFILE,    /* rms of a line gauge at the rows of a table of places, mean over the times of the table */
+  MEASURE_MISFIT,     /* of a cell field that is 1 in the region: sum of |field - share in it| over the sum of shares */
+  MEASURE_THICKNESS,  /* of the border of a cell field from 0 to 1: cells in between per cell length of it */
   MEASURE_SCATTER,    /* rms of a field of points about a plane through the 4 cells around along each axis */
   MEASURE_ROUGHNESS,  /* standard deviation of h2 times the Laplacian of a field */
   MEASURE_L1,         /* mean size of the difference of a field */
@@ -173,7 +186,15 @@ enum metric_measure {
   MEASURE_CREST_PLACE /* m: ... and where it is */
 };
 #define MEASURE_WORDS                                                                                                  \
-  "rms|max|value|mean|frequency|decay|drift|change|gain|reach|peak|peak_time|scatter|roughness|l1|crest|crest_place"
+  "rms|max|value|mean|frequency|decay|drift|change|gain|reach|peak|peak_time|rise|excess|fit|profile|misfit|"          \
+  "thickness|scatter|"                                                                                                 \
+  "roughness|l1|crest|crest_place"
+
+/* measured or computed elsewhere: n values at times t s and places x m along a line; rows of one time stand together */
+struct profile {
+  int     n;
+  double *t, *x, *v;
+};
 
 struct metric {
   char            name[NAME_LENGTH];
@@ -186,9 +207,11 @@ struct metric {
   struct shape    region;
   double          at, from, to; /* s, or in units of the reference's time scale; INFINITY: the end */
   bool            scaled_time;
-  double          scale;  /* result is divided by it; 0: by the reference's scale of that quantity */
-  double          offset; /* added to the gauge before comparing */
-  double          share;  /* MEASURE_REACH: of the way */
+  double          scale;   /* result is divided by it; 0: by the reference's scale of that quantity */
+  double          offset;  /* added to the gauge before comparing */
+  double          share;   /* MEASURE_REACH: of the way */
+  double          shift;   /* s, MEASURE_FIT: the largest */
+  struct profile  profile; /* MEASURE_PROFILE */
 };
 
 /* Bodies that meet: each has its own velocities at the nodes. */

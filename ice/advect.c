@@ -154,7 +154,6 @@ static void copy_fluid(const struct grid *g, struct ice *ice, int k, long inside
   if (ice->several) ice->mass_cc[to] = ice->alpha_cc[from] * ice->rho_cc[from] * grid_cell_volume(g);
 }
 
-/* rooms of the cells; behind sides that let something through a full one, filled with what would flow in */
 void ice_open_rooms(struct sim *sim, struct ice *ice)
 {
   const struct grid *g = &sim->grid;

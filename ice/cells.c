@@ -50,21 +50,64 @@ static void move_several(struct sim *sim, struct ice *ice)
   }
 }
 
-/* change of velocity that the open faces of a cell give it along one axis: where the liquid has a surface or flies,
- * every face counts half whatever the cell holds; a cell without pressure hears only faces that have one, if any */
-static double loose_change(const struct sim *sim, const struct ice *ice, long c, int d)
+/* change of velocity along axis d of a cell with a pressure and a surface: each face counts as much as there is liquid
+ * between it, or the surface, and the cell's centre */
+static double pressed_change(const struct sim *sim, const struct ice *ice, long c, int d)
 {
   const struct grid *g = &sim->grid;
-  double             sum = 0, with_pressure = 0, pressed = 0;
+  double             sum = 0, liquid = 0;
   for (int high = 0; high < 2; high++) {
     long   q = d * g->size + c + high * g->stride[d];
-    double change = ice->u_fc[q] - ice->u_old_fc[q];
-    sum += 0.5 * ice->open_fc[q] * change;
-    if (ice->kind[q] != FACE_SURFACE) continue;
-    with_pressure += change;
-    pressed++;
+    double share = ice->kind[q] == FACE_SURFACE ? fmin(0.5, ice_level(ice, c) - 0.5) : 0.5;
+    sum += share * ice->open_fc[q] * (ice->u_fc[q] - ice->u_old_fc[q]);
+    liquid += share;
   }
-  return pressed > 0 && !(ice->wet_cc[c] > 0) ? with_pressure / pressed : sum / moved_share(g, ice, c, d);
+  return sum / (liquid * moved_share(g, ice, c, d));
+}
+
+/* a cell without pressure hears only faces that have one, */
+static bool face_change(const struct sim *sim, const struct ice *ice, long c, int d, double *change)
+{
+  const struct grid *g = &sim->grid;
+  int                n = 0;
+  *change = 0;
+  for (int high = 0; high < 2; high++) {
+    long q = d * g->size + c + high * g->stride[d];
+    if (ice->kind[q] != FACE_SURFACE) continue;
+    *change += ice->u_fc[q] - ice->u_old_fc[q];
+    n++;
+  }
+  *change /= n > 0 ? n : 1;
+  return n > 0;
+}
+
+/* else moves with the cells beside it that have one, */
+static bool neighbour_change(const struct sim *sim, const struct ice *ice, long c, int d, double *change)
+{
+  const struct grid *g = &sim->grid;
+  int                n = 0;
+  *change = 0;
+  for (int e = 0; e < g->dim; e++)
+    for (int side = -1; side <= 1 && e != d; side += 2) {
+      long beside = c + side * g->stride[e];
+      if (!(ice->wet_cc[beside] > 0)) continue;
+      *change += pressed_change(sim, ice, beside, d);
+      n++;
+    }
+  *change /= n > 0 ? n : 1;
+  return n > 0;
+}
+
+/* else falls */
+static double loose_change(const struct sim *sim, const struct ice *ice, long c, int d)
+{
+  long   low = d * sim->grid.size + c, high = low + sim->grid.stride[d];
+  double change;
+  if (ice->wet_cc[c] > 0) return pressed_change(sim, ice, c, d);
+  if (face_change(sim, ice, c, d, &change) || neighbour_change(sim, ice, c, d, &change)) return change;
+  double sum = ice->open_fc[low] * (ice->u_fc[low] - ice->u_old_fc[low]) +
+               ice->open_fc[high] * (ice->u_fc[high] - ice->u_old_fc[high]);
+  return 0.5 * sum / moved_share(&sim->grid, ice, c, d);
 }
 
 /* what falls lands: nothing without a pressure moves into a closed face */
@@ -79,7 +122,7 @@ static void land(struct sim *sim, struct ice *ice, long c)
   }
 }
 
-/* cells full of liquid take impulses, others the mean change of their faces */
+/* cells full of liquid take impulses, others changes of velocity */
 static void move_loose_cells(struct sim *sim, struct ice *ice)
 {
   const struct grid *g = &sim->grid;

@@ -358,6 +358,7 @@ enum status ice_create(struct sim *sim, void *state)
   ice->moves = c && mpm_solid_moves(sim->scene);
   TRY(NEW(&ice->kind, faces));
   TRY(NEW(&ice->one, faces));
+  if (ice->advects && sim->scene->n_fluids == 1) TRY(NEW(&ice->fill, sim->grid.size));
   if (ice->advects) TRY(plic_create(&sim->grid, ice->pore_cc, &ice->plic));
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
   ice->n_fluids = sim->scene->n_fluids;
@@ -375,11 +376,16 @@ enum status ice_create(struct sim *sim, void *state)
   if (c) TRY(coupling_fill_cells(sim, 0));
   ice_classify_faces(sim, ice);
   TRY(ice->several ? start_several(sim, ice) : start_one(sim, ice));
+  if (sim->scene->fluid.prescribed) {
+    ice_create_prescribed(sim, ice);
+    return OK;
+  }
   start_fluxes(sim, ice);
   if (ice->advects && ice->skeleton) TRY(ice_resist_faces(sim, 0)); /* the first step's limit counts on drag */
   if (ice->params->shocks) TRY(shock_create(sim, ice));
   if (ice->forecast_cc) ice_start_forecast(sim, ice);
   if (ice->advects) ice->now.change = ice_fastest_change(sim, ice, 0);
+  if (ice->fill) ice_open_rooms(sim, ice);
   static const enum linear_method method[] = {
       [SOLVER_AUTO] = LINEAR_AUTO, [SOLVER_HYPRE] = LINEAR_HYPRE, [SOLVER_DIRECT] = LINEAR_DIRECT};
   return linear_create(&sim->grid, method[sim->scene->numerics.pressure_solver], &ice->linear);

@@ -46,6 +46,7 @@ struct ice {
   struct heat              heat; /* where the fluid's energy is solved */
   double                  *rim;  /* [dim][size] h: a surface's distance beyond the fill's; NULL: none has */
   double                  *one;  /* [dim][size] ones: porosity without a skeleton */
+  double                  *fill; /* [size] saturation when the ledger is measured; NULL without advection */
   const double            *porosity_cc, *porosity_fc;
   const double *open_cc, *open_fc; /* share that obstacles leave open of a cell at the start of the step, of a
                                       face at its end */
@@ -102,6 +103,10 @@ double ice_level(const struct ice *ice, long cell);
 double      ice_wall_rate(const struct ice *ice, long cell, double dt);
 enum status ice_move_obstacles(struct sim *sim, double dt);
 double      ice_obstacles_dt(const struct sim *sim);
+/** For ice_liquid_centre, from mass and pressure as they are. */
+void ice_measure_fill(const struct sim *sim, const struct ice *ice);
+/** m: middle of the liquid of a cell: below its plane where it has a surface. */
+void ice_liquid_centre(const struct sim *sim, const struct ice *ice, long cell, double x[3]);
 /** Distance between the pressures of a face, in h: 1 between cells, to the surface or the side else. */
 double ice_face_distance(const struct sim *sim, const struct ice *ice, int axis, long face);
 /** Pressure beyond a face where there is no wet cell: the side's at time t, or zero at a surface, Pa. */
@@ -158,7 +163,11 @@ double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis,
 /** Kinds of all faces from wet cells and sides. */
 void ice_classify_faces(struct sim *sim, struct ice *ice);
 /** Component of the velocity that the side prescribes at one of its faces, m/s. */
-double      ice_inlet_velocity(const struct sim *sim, int axis, int component, long f, double t);
+double ice_inlet_velocity(const struct sim *sim, int axis, int component, long f, double t);
+/** Velocities of all faces, when the scene prescribes them. */
+void        ice_create_prescribed(struct sim *sim, struct ice *ice);
+enum status ice_carry_prescribed(struct sim *sim, double dt);
+double      ice_prescribed_dt(const struct sim *sim);
 enum status ice_update_properties(struct sim *sim, double dt);
 enum status ice_find_surface(struct sim *sim, double dt);
 enum status ice_advect(struct sim *sim, double dt);

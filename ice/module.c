@@ -16,19 +16,22 @@ static bool skeleton(const struct scene *sc) { return sc->n_solids > 0; }
 static bool advects(const struct scene *sc)
 {
   const struct ice_params *params = scene_module_params(sc, &module_ice);
-  return params->advection && !params->shocks;
+  return params->advection && !params->shocks && !sc->fluid.prescribed;
 }
 static bool shocks(const struct scene *sc)
 {
   const struct ice_params *params = scene_module_params(sc, &module_ice);
   return params->shocks;
 }
-static bool calm(const struct scene *sc) { return !shocks(sc); }
+static bool prescribed(const struct scene *sc) { return sc->fluid.prescribed; }
+static bool driven(const struct scene *sc) { return !prescribed(sc); }
+static bool calm(const struct scene *sc) { return !shocks(sc) && driven(sc); }
 static bool cold_shocks(const struct scene *sc) { return shocks(sc) && !warm(sc); }
 static bool warm_shocks(const struct scene *sc) { return shocks(sc) && warm(sc); }
 static bool several(const struct scene *sc) { return sc->n_fluids > 1 && advects(sc); }
 static bool alone(const struct scene *sc) { return !several(sc); }
 static bool one_advects(const struct scene *sc) { return advects(sc) && alone(sc); }
+static bool sharp(const struct scene *sc) { return one_advects(sc) || prescribed(sc); }
 static bool carries_cold(const struct scene *sc) { return one_advects(sc) && !warm(sc); }
 static bool carries_warm(const struct scene *sc) { return one_advects(sc) && warm(sc); }
 static bool exchanges(const struct scene *sc) { return carries_warm(sc) && heat_has_grains(sc); }
@@ -48,8 +51,8 @@ static bool viscous(const struct scene *sc)
   for (int k = 0; k < sc->n_fluids; k++) any = any || scene_fluid(sc, k)->viscosity > 0;
   return advects(sc) && params->shear && any;
 }
-static bool no_trend(const struct scene *sc) { return !advects(sc); }
-static bool rests(const struct scene *sc) { return !advects(sc) && !shocks(sc); }
+static bool no_trend(const struct scene *sc) { return !advects(sc) && driven(sc); }
+static bool rests(const struct scene *sc) { return no_trend(sc) && !shocks(sc); }
 static bool moving(const struct scene *sc) { return mpm_solid_moves(sc); }
 
 static const struct field fields[] = {
@@ -68,7 +71,7 @@ static const struct stage stages[] = {
      "rho_cc alpha_cc mixture_cc kappa_cc soft_cc defect_cc lower_fc vel_start_cc pore_cc", "4.15",
      "only with several fluids", several, ice_mix_fluids, NULL},
     {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
-     "only with numerics.ice.advection and one fluid", one_advects, ice_find_surface, NULL},
+     "only with numerics.ice.advection and one fluid", sharp, ice_find_surface, NULL},
     {"ice.find_sound", SLOT_volume_fractions, "P_cc T_cc?", "sound_cc", "4.13", "only with numerics.ice.shocks", shocks,
      ice_find_sound, NULL},
     {"ice.measure_eddies", SLOT_volume_fractions, "wet_cc rho_cc vel_cc", "mu_cc", "4.11",
@@ -85,9 +88,10 @@ static const struct stage stages[] = {
     {"ice.resist_faces", SLOT_drag, "u_old_fc s_old_fc porosity_fc fill_fc medium_porosity_fc", "drag_fc", "2.2",
      "only when there is a skeleton", skeleton, ice_resist_faces, NULL},
     {"ice.eliminate_drag", SLOT_eliminate, "u_old_fc s_old_fc gradP_fc rho_cc", "u_fc s_fc u_reply_fc s_reply_fc",
-     "4.3", "always", NULL, ice_eliminate_drag, NULL},
+     "4.3", "not with a prescribed motion", driven, ice_eliminate_drag, NULL},
     {"ice.solve_pressure", SLOT_pressure, "u_fc s_fc u_reply_fc s_reply_fc flux_fc defect_cc",
-     "coupling_fc diagonal_cc rhs_cc dP_cc flux_fc", "4.4", "always", NULL, ice_solve_pressure, NULL},
+     "coupling_fc diagonal_cc rhs_cc dP_cc flux_fc", "4.4", "not with a prescribed motion", driven, ice_solve_pressure,
+     NULL},
     {"ice.correct_faces", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
      "u_fc s_fc flux_fc water_fc carried_fc P_cc", "4.4", "only without numerics.ice.advection", no_trend,
      ice_correct_faces, NULL},
@@ -114,6 +118,9 @@ static const struct stage stages[] = {
      "mass_cc wet_cc alpha_cc P_cc T_cc x_p mass_p volume_p volume_solid_p temperature_p",
      "T_cc T_solid_cc temperature_p warming_cc swell_cc", "4.12", "only with energy, in fluid and grains", exchanges,
      ice_conduct_heat, ice_heat_dt},
+    {"ice.carry_prescribed", SLOT_cells, "water_fc alpha_cc rho_cc mass_cc",
+     "pore_cc carried_fc liquid_fc alpha_cc mass_cc", "4.16", "only with fluid.motion prescribed", prescribed,
+     ice_carry_prescribed, ice_prescribed_dt},
     {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc", "press_fc vel_cc", "4.13",
      "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
     {"ice.push_shock_with_energy", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc T_cc",
@@ -162,6 +169,7 @@ static void destroy(void *state)
   plic_destroy(&ice->plic);
   memory_free(&ice->one);
   ice_heat_destroy(&ice->heat);
+  memory_free(&ice->fill);
 }
 
 /* J: what compression of a cell's fluid k has stored, to the second order from the reference pressure; one liquid
@@ -183,11 +191,12 @@ static void measure_fluid(const struct sim *sim, const struct ice *ice, int k, s
   struct box         cells = grid_cells(g);
   double             gravity[3];
   sim_gravity(sim, sim->t, gravity);
+  ice_measure_fill(sim, ice);
   FOR_BOX_SERIAL(g, cells, c)
   {
     double x[3], m = ice->mass_cc[k * g->size + c];
     if (m == 0) continue;
-    grid_centre(g, c, x);
+    ice_liquid_centre(sim, ice, c, x);
     l->v[k == 0 ? LEDGER_mass_fluid : LEDGER_mass_others] += m;
     if (!ice->params->shocks) l->v[LEDGER_compression] += compression(sim, ice, k, c);
     for (int d = 0; d < g->dim; d++) {

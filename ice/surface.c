@@ -2,6 +2,7 @@
 #include "ice/ice.h"
 
 #include "core/parallel.h"
+#include "eos/eos.h"
 
 #include <math.h>
 #include <string.h>
@@ -48,4 +49,33 @@ enum status ice_find_surface(struct sim *sim, double dt)
   FOR_BOX(g, cells, c) ice->defect_cc[c] = defect_of(g, ice, c);
   memcpy(ice->vel_start_cc, ice->vel_cc, (size_t)(g->size * g->dim) * sizeof(double));
   return OK;
+}
+
+/* ---- where its weight is ---- */
+
+void ice_measure_fill(const struct sim *sim, const struct ice *ice)
+{
+  const struct fluid *fluid = &sim->scene->fluid;
+  const struct grid  *g = &sim->grid;
+  struct box          cells = grid_cells(g);
+  double              V = grid_cell_volume(g);
+  if (!ice->fill) return;
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    double rho, room = ice->porosity_cc[c] * ice->open_cc[c] * V;
+    fluid->eos->density(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, c), &rho);
+    ice->fill[c] = room > 0 ? ice->mass_cc[c] / (rho * room) : 0;
+  }
+  grid_fill_periodic(g, 1, ice->fill);
+}
+
+void ice_liquid_centre(const struct sim *sim, const struct ice *ice, long cell, double x[3])
+{
+  struct plane plane;
+  double       centroid[3];
+  grid_centre(&sim->grid, cell, x);
+  if (!ice->fill || !plic_mixed(ice->fill[cell]) || ice->open_cc[cell] < 1) return;
+  plic_reconstruct(&ice->plic, ice->fill, cell, &plane);
+  plic_centroid(&plane, centroid);
+  for (int d = 0; d < sim->grid.dim; d++) x[d] += sim->grid.h * centroid[d];
 }

@@ -1,6 +1,7 @@
 /* Readers: a gauge of the scene made ready to give its number at any time. */
 #include "run/gauge_read.h"
 #include "run/gauge_extent.h"
+#include "run/gauge_level.h"
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -25,7 +26,7 @@ static double read_cells_at(const struct gauge_reader *r, const struct sim *sim)
   return v;
 }
 
-static void place_among_cells(const struct grid *g, struct gauge_reader *r)
+void gauge_reader_weigh(const struct grid *g, struct gauge_reader *r)
 {
   int    lower[AXES] = {0, 0, 0};
   double part[AXES] = {0, 0, 0};
@@ -257,16 +258,21 @@ static double coordinate(const struct grid *g, int axis, double x)
   return isfinite(x) ? x : g->min[axis] + 0.5 * g->h * g->n[axis];
 }
 
+void gauge_reader_place(const struct grid *g, const struct gauge *gauge, int sample, double x[3])
+{
+  double part = gauge_is_line(gauge) && gauge->n > 1 ? (double)sample / (gauge->n - 1) : 0;
+  for (int d = 0; d < g->dim; d++) {
+    double from = coordinate(g, d, gauge->x[d]), to = coordinate(g, d, gauge->to[d]);
+    x[d] = from + part * (to - from);
+  }
+}
+
 static enum status create_point(const struct sim *sim, const struct gauge *gauge, int sample, struct gauge_reader *r)
 {
-  double part = gauge->kind == GAUGE_LINE && gauge->n > 1 ? (double)sample / (gauge->n - 1) : 0;
   TRY(find_field(sim, gauge, r));
-  for (int d = 0; d < sim->grid.dim; d++) {
-    double from = coordinate(&sim->grid, d, gauge->x[d]), to = coordinate(&sim->grid, d, gauge->to[d]);
-    r->x[d] = from + part * (to - from);
-  }
+  gauge_reader_place(&sim->grid, gauge, sample, r->x);
   r->read = r->view.field->at == AT_CELL ? read_cells_at : read_points_at;
-  if (r->view.field->at == AT_CELL) place_among_cells(&sim->grid, r);
+  if (r->view.field->at == AT_CELL) gauge_reader_weigh(&sim->grid, r);
   return OK;
 }
 
@@ -377,7 +383,7 @@ static enum status create_wall(const struct sim *sim, const struct gauge *gauge,
   return OK;
 }
 
-int gauge_columns(const struct gauge *gauge) { return gauge->kind == GAUGE_LINE && gauge->n > 1 ? gauge->n : 1; }
+int gauge_columns(const struct gauge *gauge) { return gauge_is_line(gauge) && gauge->n > 1 ? gauge->n : 1; }
 
 enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge, int sample,
                                 const struct marker_finder *markers, struct gauge_reader *reader)
@@ -385,11 +391,12 @@ enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge
   const char *unit = "J";
   memset(reader, 0, sizeof *reader);
   snprintf(reader->name, sizeof reader->name, "%s", gauge->name);
-  if (gauge->kind == GAUGE_LINE) snprintf(reader->name, sizeof reader->name, "%s.%d", gauge->name, sample);
+  if (gauge_is_line(gauge)) snprintf(reader->name, sizeof reader->name, "%s.%d", gauge->name, sample);
   if (gauge->kind == GAUGE_POINT || gauge->kind == GAUGE_LINE) return create_point(sim, gauge, sample, reader);
   if (gauge->kind == GAUGE_TRACER || gauge->kind == GAUGE_LOAD) return create_marker(sim, gauge, markers, reader);
   if (gauge->kind == GAUGE_WALL) return create_wall(sim, gauge, reader);
   if (gauge->kind == GAUGE_EXTENT) return gauge_extent_create(sim, gauge, reader);
+  if (gauge->kind == GAUGE_LEVEL || gauge->kind == GAUGE_LEVELS) return gauge_level_create(sim, gauge, sample, reader);
   reader->ledger = gauge->kind == GAUGE_INTEGRAL ? find_ledger(gauge->of, &unit) : -1;
   reader->read = gauge->kind == GAUGE_INTEGRAL ? find_sum(gauge->of) : NULL;
   if (reader->ledger < 0 && !reader->read) return create_region(sim, gauge, reader);

@@ -26,6 +26,7 @@ struct gauge_reader {
   struct field_view    volume; /* of points: what means and integrals weigh them with; data NULL: unknown */
   struct field_view    start;  /* of markers: where they were at the start */
   int                  ledger;
+  int                  axis;       /* of a level: along which it is taken */
   const double        *number;     /* of a wall */
   long                 first, end; /* markers */
   struct gauge_extent *extent;     /* NULL: not of that kind */
@@ -37,6 +38,10 @@ int gauge_columns(const struct gauge *gauge);
 enum status gauge_reader_create(const struct sim *sim, const struct gauge *gauge, int sample,
                                 const struct marker_finder *markers, struct gauge_reader *reader) MUST_CHECK;
 void        gauge_reader_destroy(struct gauge_reader *reader);
+/** m: place of a gauge, or of sample `sample` of a line; null is the middle of an axis. */
+void gauge_reader_place(const struct grid *g, const struct gauge *gauge, int sample, double x[3]);
+/** Cells around reader->x and what each counts. */
+void gauge_reader_weigh(const struct grid *g, struct gauge_reader *reader);
 /** The number now, at the end of a step; NaN where there is nothing to read. */
 double gauge_reader_read(struct gauge_reader *reader, const struct sim *sim);
 

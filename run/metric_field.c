@@ -100,6 +100,10 @@ enum status metric_of_field(struct compiled_metric *m, const struct sim *sim, do
   bool         points = m->view.field->at != AT_CELL;
   struct tally a = {.m = m, .t = sim->t, .difference = difference, .grid = &sim->grid, .points = points};
   *expected = 0;
+  if (m->metric->measure == MEASURE_MISFIT || m->metric->measure == MEASURE_THICKNESS) {
+    *result = metric_of_border(m, sim);
+    return OK;
+  }
   if (m->metric->measure == MEASURE_SCATTER) return metric_of_scatter(m, sim, difference, result);
   fields_refresh(sim, &m->view);
   if (m->wet.field) fields_refresh(sim, &m->wet);

@@ -65,6 +65,19 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
  * inside. */
 enum status metric_of_peak(const struct compiled_metric *m, long n, const double *t, const double *v, double *at,
                            double *value) MUST_CHECK;
+/** Of MEASURE_FIT: root mean square of the series at the rows of a table within the span, after the shift in time of at
+ * most the metric's that makes it least. */
+enum status metric_of_fit(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
+                          double *expected) MUST_CHECK;
+struct gauges;
+/** Of MEASURE_PROFILE: root mean square of a line gauge at the rows of one time of a table of places, mean over the
+ * times within the span. */
+enum status metric_of_profile(const struct compiled_metric *m, const struct scene *scene, const struct gauges *gauges,
+                              double *result) MUST_CHECK;
+/** Of MEASURE_MISFIT: sum over cells of |field - share of the cell in the region| over the sum of the shares. Of
+ * MEASURE_THICKNESS: cells of the region with a field from 0.01 to 0.99 over the length, in cells, of the border, which
+ * is the sum of |gradient|. */
+double metric_of_border(struct compiled_metric *m, const struct sim *sim);
 /** m: where the quantity of a gauge is meant: the point, the sample of a line, the tracer at the start, the middle of a
  *  load's patch. */
 void metric_place_gauge(const struct scene *scene, const char *name, double x[3]);

@@ -45,8 +45,8 @@ void metric_place_gauge(const struct scene *scene, const char *name, double x[3]
     const struct gauge *g = &scene->gauges[i];
     size_t              length = strlen(g->name);
     if (strncmp(g->name, name, length) != 0 || (name[length] != '\0' && name[length] != '.')) continue;
-    if (g->kind == GAUGE_POINT) place_line(scene, g, 0, x);
-    if (g->kind == GAUGE_LINE && name[length] == '.') place_line(scene, g, atoi(name + length + 1), x);
+    if (g->kind == GAUGE_POINT || g->kind == GAUGE_LEVEL) place_line(scene, g, 0, x);
+    if (gauge_is_line(g) && name[length] == '.') place_line(scene, g, atoi(name + length + 1), x);
     if (g->kind == GAUGE_TRACER) place_tracer(scene, g->on, x);
     if (g->kind == GAUGE_LOAD) place_load(scene, g->on, x);
   }
@@ -152,6 +152,28 @@ static enum status reach(const struct compiled_metric *m, long n, const double *
   return OK;
 }
 
+/* above the least value so far */
+static double rise(long n, const double *v)
+{
+  double least = v[0], most = 0;
+  for (long i = 0; i < n; i++) {
+    least = fmin(least, v[i]);
+    if (!(v[i] - least <= most)) most = v[i] - least;
+  }
+  return most;
+}
+
+static enum status excess(const struct compiled_metric *m, long n, const double *t, const double *v, double *result)
+{
+  *result = 0;
+  for (long i = 0; i < n; i++) {
+    double here;
+    TRY(expected_at(m, t[i], &here));
+    if (!(v[i] + m->metric->offset - here <= *result)) *result = v[i] + m->metric->offset - here;
+  }
+  return OK;
+}
+
 static enum status peak(const struct compiled_metric *m, long n, const double *t, const double *v, double *result,
                         double *expected)
 {
@@ -167,6 +189,7 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
 {
   double tolerance = 1e-9 * m->to;
   if (m->metric->measure == MEASURE_VALUE && n > 0) return value(m, n, t, v, result, expected);
+  if (m->metric->measure == MEASURE_FIT && n > 0) return metric_of_fit(m, n, t, v, result, expected);
   while (n > 0 && t[0] < m->from - tolerance) t++, v++, n--;
   while (n > 0 && t[n - 1] > m->to + tolerance) n--;
   if (n == 0)
@@ -183,6 +206,11 @@ enum status metric_of_series(const struct compiled_metric *m, long n, const doub
     TRY(expected_at(m, m->to, expected));
     *result = v[n - 1] - v[0] - *expected;
     return OK;
+  case MEASURE_RISE:
+    *result = rise(n, v);
+    return OK;
+  case MEASURE_EXCESS:
+    return excess(m, n, t, v, result);
   case MEASURE_REACH:
     return reach(m, n, t, v, result, expected);
   case MEASURE_PEAK:

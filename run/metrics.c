@@ -84,6 +84,10 @@ static enum status find_field(const struct sim *sim, struct compiled_metric *m)
   if (m->metric->measure == MEASURE_SCATTER && m->view.field->at == AT_CELL)
     return FAIL(ERR_INPUT, "metrics.%s.field: scatter is known of fields of points, %s belongs to cells",
                 m->metric->name, m->metric->field);
+  bool of_cells = m->metric->measure == MEASURE_MISFIT || m->metric->measure == MEASURE_THICKNESS;
+  if (of_cells && m->view.field->at != AT_CELL)
+    return FAIL(ERR_INPUT, "metrics.%s.field: this measure is known of fields of cells, %s belongs to points",
+                m->metric->name, m->metric->field);
   return OK;
 }
 
@@ -214,6 +218,10 @@ static enum status measure_gauge(struct metrics *metrics, int i, const struct ga
   struct compiled_metric *m = &metrics->m[i];
   const double           *t, *v;
   long                    n;
+  if (m->metric->measure == MEASURE_PROFILE) {
+    if (metric_of_profile(m, metrics->scene, gauges, &metrics->values[i]) != OK) metrics->values[i] = NAN;
+    return OK;
+  }
   TRY(gauges_series(gauges, m->metric->gauge, &n, &t, &v));
   if (metric_of_series(m, n, t, v, &metrics->values[i], &metrics->values[metrics->n + i]) != OK)
     metrics->values[i] = NAN;
@@ -241,6 +249,7 @@ static void judge(struct metrics *metrics, int i, const struct gauges *gauges, c
     relative = true;
   }
   const char *unit = *m->metric->field ? m->view.field->unit : gauges_unit(gauges, m->metric->gauge);
+  if (m->metric->measure == MEASURE_PROFILE) unit = "m";
   if (m->metric->measure == MEASURE_FREQUENCY) unit = "Hz";
   if (m->metric->measure == MEASURE_DECAY) unit = "1/s";
   if (m->metric->measure == MEASURE_REACH || m->metric->measure == MEASURE_PEAK_TIME) unit = "s";

@@ -175,44 +175,68 @@ static enum status check_reference(struct reader *reader, const struct scene *sc
   return reader_unknown(reader, "quantity", dot + 1, &names);
 }
 
+static bool has_line(const struct scene *scene, const char *name)
+{
+  for (int i = 0; i < scene->n_gauges; i++)
+    if (strcmp(scene->gauges[i].name, name) == 0) return gauge_is_line(&scene->gauges[i]);
+  return false;
+}
+
 /** A gauge, or "line.3" for a sample of a line. */
 static bool has_gauge(const struct scene *scene, const char *name)
 {
   for (int i = 0; i < scene->n_gauges; i++) {
     const struct gauge *g = &scene->gauges[i];
     size_t              length = strlen(g->name);
-    if (strcmp(g->name, name) == 0) return g->kind != GAUGE_LINE;
-    if (g->kind == GAUGE_LINE && strncmp(g->name, name, length) == 0 && name[length] == '.') return true;
+    if (strcmp(g->name, name) == 0) return !gauge_is_line(g);
+    if (gauge_is_line(g) && strncmp(g->name, name, length) == 0 && name[length] == '.') return true;
   }
   return false;
+}
+
+static bool is_of_gauge(int measure) { return measure >= MEASURE_FREQUENCY && measure <= MEASURE_PROFILE; }
+static bool is_of_field(int measure) { return measure >= MEASURE_MISFIT; }
+
+/** What a measure needs beside its source. */
+static enum status check_measure(struct reader *reader, const struct metric *m)
+{
+  const double *t, *v;
+  at(reader, "metrics.%s", m->name);
+  if (m->measure == MEASURE_FIT && function_rows(&m->expected, &t, &v) == 0)
+    return reader_fail(reader, "a fit goes to the rows of a table; write \"expected\": {\"table\": \"front.csv\"}");
+  if (m->measure == MEASURE_PROFILE && m->profile.n == 0)
+    return reader_fail(reader, "a profile goes to the rows of a table; write \"profile\": \"surface.csv\"");
+  return OK;
 }
 
 static enum status check_metric_source(struct reader *reader, const struct scene *scene, const struct metric *m)
 {
   struct names names = {0};
-  bool of_gauge = m->measure == MEASURE_FREQUENCY || m->measure == MEASURE_DECAY || m->measure == MEASURE_DRIFT ||
-                  m->measure == MEASURE_CHANGE || m->measure == MEASURE_GAIN || m->measure == MEASURE_REACH ||
-                  m->measure == MEASURE_PEAK || m->measure == MEASURE_PEAK_TIME;
-  bool of_field = m->measure == MEASURE_ROUGHNESS || m->measure == MEASURE_SCATTER || m->measure == MEASURE_L1 ||
-                  m->measure == MEASURE_CREST || m->measure == MEASURE_CREST_PLACE;
+  bool         of_gauge = is_of_gauge(m->measure), of_field = is_of_field(m->measure);
   at(reader, "metrics.%s", m->name);
   if ((*m->field != '\0') == (*m->gauge != '\0'))
     return reader_fail(reader, "it needs one of \"field\" and \"gauge\"; give exactly one");
   if (*m->field && of_gauge)
     return reader_fail(
         reader,
-        "frequency, decay, drift, change, gain, reach and peaks belong to a gauge, not to the field %s; give \"gauge\"",
+        "frequency, decay, drift, change, gain, reach, peaks, rise, excess, fit and profile belong to a gauge, "
+        "not to the field %s; give \"gauge\"",
         m->field);
   if (*m->gauge && of_field)
     return reader_fail(
-        reader, "roughness, scatter, l1 and crests belong to a field, not to the gauge %s; give \"field\"", m->gauge);
+        reader,
+        "misfit, thickness, roughness, scatter, l1 and crests belong to a field, not to the gauge %s; give \"field\"",
+        m->gauge);
   if (*m->over && !*m->gauge)
     return reader_fail(reader, "\"over\" divides gauges, %s is a field; use \"scale\"", m->field);
   for (int i = 0; i < scene->n_gauges; i++) names_add(&names, scene->gauges[i].name);
   if (*m->over && !has_gauge(scene, m->over))
     return reader_unknown(at(reader, "metrics.%s.over", m->name), "gauge", m->over, &names);
-  if (*m->field || has_gauge(scene, m->gauge)) return OK;
-  return reader_unknown(at(reader, "metrics.%s.gauge", m->name), "gauge (a line is \"name.0\")", m->gauge, &names);
+  bool found = m->measure == MEASURE_PROFILE ? has_line(scene, m->gauge) : has_gauge(scene, m->gauge);
+  if (*m->field || found) return OK;
+  return reader_unknown(at(reader, "metrics.%s.gauge", m->name),
+                        m->measure == MEASURE_PROFILE ? "gauge of a line" : "gauge (a line is \"name.0\")", m->gauge,
+                        &names);
 }
 
 static enum status check_times(struct reader *reader, const struct metric *m, const struct reference_use *use)
@@ -231,6 +255,7 @@ static enum status check_metrics(struct reader *reader, const struct scene *scen
   for (int i = 0; i < scene->n_metrics; i++) {
     const struct reference_use *use = NULL;
     TRY(check_metric_source(reader, scene, &scene->metrics[i]));
+    TRY(check_measure(reader, &scene->metrics[i]));
     TRY(check_reference(reader, scene, &scene->metrics[i], &use));
     TRY(check_times(reader, &scene->metrics[i], use));
   }
@@ -246,6 +271,7 @@ enum status scene_check(struct reader *reader, struct scene *scene)
   TRY(check_fluids(reader, scene));
   TRY(check_materials(reader, scene));
   TRY(scene_check_heat(reader, scene));
+  TRY(scene_check_motion(reader, scene));
   TRY(check_metrics(reader, scene));
   at(reader, "%s", "");
   TRY(scene_check_places(reader, scene));

@@ -15,6 +15,8 @@ enum status scene_check_words(struct reader *reader, const struct scene *scene) 
 
 /** Every solid has a heat capacity or none; sides that heat or cool have something to conduct it. run/scene_heat.c */
 enum status scene_check_heat(struct reader *reader, const struct scene *scene) MUST_CHECK;
+/** Whether a prescribed motion of the fluid is all there is. */
+enum status scene_check_motion(struct reader *reader, const struct scene *scene) MUST_CHECK;
 
 /** Points of the regular lattice (points per axis in every cell) that lie in a shape. */
 long scene_count_points(const struct scene *scene, const struct shape *shape);

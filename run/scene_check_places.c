@@ -320,7 +320,7 @@ static enum status check_minus(struct reader *reader, const struct scene *scene,
   struct names names = {0};
   for (int i = 0; i < scene->n_gauges; i++) {
     const struct gauge *other = &scene->gauges[i];
-    if (other->kind == GAUGE_LINE || *other->minus || strcmp(other->name, g->name) == 0) continue;
+    if (gauge_is_line(other) || *other->minus || strcmp(other->name, g->name) == 0) continue;
     if (strcmp(other->name, g->minus) == 0) return OK;
     names_add(&names, other->name);
   }
@@ -335,9 +335,9 @@ static enum status check_gauges(struct reader *reader, struct scene *scene)
     if (g->kind == GAUGE_LOAD || g->kind == GAUGE_TRACER) TRY(check_rider(reader, scene, g));
     if (g->kind == GAUGE_WALL) TRY(check_wall(reader, scene, g));
     if (*g->minus) TRY(check_minus(reader, scene, g));
-    if (g->kind == GAUGE_POINT || g->kind == GAUGE_LINE)
-      TRY(place(at(reader, "gauges", g->name, g->kind == GAUGE_LINE ? "from" : "at"), scene, g->x));
-    if (g->kind == GAUGE_LINE) TRY(place(at(reader, "gauges", g->name, "to"), scene, g->to));
+    if (g->kind == GAUGE_POINT || g->kind == GAUGE_LEVEL || gauge_is_line(g))
+      TRY(place(at(reader, "gauges", g->name, gauge_is_line(g) ? "from" : "at"), scene, g->x));
+    if (gauge_is_line(g)) TRY(place(at(reader, "gauges", g->name, "to"), scene, g->to));
     if ((g->kind == GAUGE_INTEGRAL || g->kind == GAUGE_MEAN || g->kind == GAUGE_EXTENT) &&
         !holds_a_point(scene, &g->region))
       return reader_fail(at(reader, "gauges", g->name, "region"), "no place of the grid lies in it; enlarge it");

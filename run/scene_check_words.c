@@ -81,6 +81,12 @@ static void add_wall(const struct scene *scene, const char *on, struct words *wo
   if (!obstacle && fluid_has_energy(&scene->fluid)) names_add(&words->names, "heat");
 }
 
+static void add_axes(const struct scene *scene, struct words *words)
+{
+  static const char *const axes[] = {"x", "y", "z"};
+  for (int d = 0; d < scene->dim; d++) add_word(words, "", axes[d], "");
+}
+
 static void add_ends(const struct scene *scene, struct words *words)
 {
   static const char *const ends[] = {"x", "y", "z"};
@@ -107,8 +113,10 @@ static enum status check_gauge(struct reader *reader, const struct scene *scene,
   snprintf(reader->path, sizeof reader->path, "gauges.%s.of", g->name);
   if (marker) add_marker(scene, &words);
   if (wall) add_wall(scene, g->on, &words);
+  bool level = g->kind == GAUGE_LEVEL || g->kind == GAUGE_LEVELS;
   if (g->kind == GAUGE_EXTENT) add_ends(scene, &words);
-  if (!marker && !wall && g->kind != GAUGE_EXTENT) {
+  if (level) add_axes(scene, &words);
+  if (!marker && !wall && !level && g->kind != GAUGE_EXTENT) {
     add_fields(scene, &words, false);
     add_fields(scene, &with_set, true);
   }

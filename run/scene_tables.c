@@ -139,6 +139,10 @@ static const struct param fluid_params[] = {
      "bulk modulus; \"infinite\": incompressible"},
     {"viscosity", PARAM_NUMBER, AT(fluid, viscosity), "Pa s", 0, 1e6, "1e-3", NULL, "dynamic viscosity"},
     {"velocity", PARAM_FUNCTION3, AT(fluid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
+    {"motion", PARAM_CHOICE, AT(fluid, prescribed), "-", 0, 0, "free", "free|prescribed",
+     "prescribed: the velocity, times the strength, is that of all times and carries the fluid, which has no pressure"},
+    {"strength", PARAM_FUNCTION, AT(fluid, strength), "-", 0, 0, "1", NULL,
+     "factor, of t, from -1 to 1, on the velocity of a prescribed motion"},
     {"pressure", PARAM_FUNCTION, AT(fluid, pressure), "Pa", 0, 0, ZERO_DEFAULT, NULL,
      "gauge pressure at the start, where the start is \"zero\""},
     {"temperature", PARAM_FUNCTION, AT(fluid, temperature), "K", 0, 0, ZERO_DEFAULT, NULL,
@@ -301,13 +305,31 @@ static const struct param gauge_tracer[] = {
     GAUGE_MINUS,
     PARAM_END};
 
+#define GAUGE_AXIS                                                                                                     \
+  {                                                                                                                    \
+    "of", PARAM_TEXT, AT(gauge, of), "-", 0, 0, NULL, NULL,                                                            \
+        "axis along which the length of the liquid is taken: x, y, z"                                                  \
+  }
+static const struct param gauge_level[] = {GAUGE_AXIS,
+                                           {"at", PARAM_VECTOR, AT(gauge, x), "m", -1e9, INFINITY, NULL, NULL,
+                                            "place of the line along that axis; null: the middle of an axis"},
+                                           GAUGE_MINUS,
+                                           PARAM_END};
+static const struct param gauge_levels[] = {
+    GAUGE_AXIS,
+    {"from", PARAM_VECTOR, AT(gauge, x), "m", -1e9, INFINITY, NULL, NULL, "place of the first line along that axis"},
+    {"to", PARAM_VECTOR, AT(gauge, to), "m", -1e9, INFINITY, NULL, NULL, "place of the last"},
+    {"samples", PARAM_INTEGER, AT(gauge, n), "-", 2, 10000, "20", NULL, "number of samples"},
+    PARAM_END};
+
 /* in the order of enum gauge_kind */
 static bool gauge_row(int i, struct row *row)
 {
   static const struct row rows[] = {{"point", NULL, gauge_point, 0, NULL},     {"line", NULL, gauge_line, 0, NULL},
                                     {"integral", NULL, gauge_region, 0, NULL}, {"mean", NULL, gauge_region, 0, NULL},
                                     {"tracer", NULL, gauge_tracer, 0, NULL},   {"load", NULL, gauge_load, 0, NULL},
-                                    {"wall", NULL, gauge_wall, 0, NULL},       {"extent", NULL, gauge_extent, 0, NULL}};
+                                    {"wall", NULL, gauge_wall, 0, NULL},       {"extent", NULL, gauge_extent, 0, NULL},
+                                    {"level", NULL, gauge_level, 0, NULL},     {"levels", NULL, gauge_levels, 0, NULL}};
   bool                    found = i < (int)(sizeof rows / sizeof *rows);
   if (found) *row = rows[i];
   return found;
@@ -358,11 +380,15 @@ static const struct param metric_params[] = {
     {"offset", PARAM_NUMBER, AT(metric, offset), "SI", -1e300, 1e300, "0", NULL, "added to the gauge before comparing"},
     {"share", PARAM_NUMBER, AT(metric, share), "-", 0, 1, "0.95", NULL,
      "reach: of the way from the first to the last sample in the span"},
+    {"shift", PARAM_NUMBER, AT(metric, shift), "s", 0, 1e12, "0", NULL,
+     "fit: largest shift in time of the gauge against the rows of the table \"expected\""},
     PARAM_END};
 static const struct entry metric_entries[] = {
     VALUE("time", time_unit, metric, scaled_time, "seconds", "-",
           "scaled: at, from, to count in the reference's unit of time"),
-    VALUE("region", shape, metric, region, "everywhere", "-", "where a field is compared"), ENTRY_END};
+    VALUE("region", shape, metric, region, "everywhere", "-", "where a field is compared"),
+    VALUE("profile", profile, metric, profile, "null", "-", "profile: file with columns t in s, place in m, value"),
+    ENTRY_END};
 static const struct section metric_section = {.meaning = "number of a run that is compared",
                                               .size = sizeof(struct metric),
                                               .params = metric_params,

@@ -21,7 +21,7 @@ extern const struct shape_word shape_words[];
 /* Values that are more than a number or a word. */
 extern const struct value_kind value_shape, value_title, value_folder, value_notes, value_origin, value_side_solid,
     value_side_fluid, value_side_heat, value_material, value_points_per_cell, value_times, value_fluid_path,
-    value_time_unit, value_overrides, value_override_sets, value_path_overrides;
+    value_time_unit, value_profile, value_overrides, value_override_sets, value_path_overrides;
 
 /** x_min, x_max, ...: SIDES of them. */
 extern const char *const side_names[];

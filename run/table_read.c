@@ -1,8 +1,10 @@
-/* Tables over time: a column of a CSV file as a function of t. */
+/* Tables over time: a column of a CSV file as a function of t; values over time and place. */
 #include "run/table_read.h"
 
 #include "core/memory.h"
+#include "core/scene.h"
 #include "run/files.h"
+#include "run/scene_tables.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -215,3 +217,49 @@ enum status table_read(struct reader *reader, const cJSON *value, struct functio
   memory_free(&csv.text);
   return status;
 }
+
+/* ---- tables over time and place ---- */
+
+static enum status read_places(struct csv *csv, struct profile *p)
+{
+  bool found;
+  csv->at = csv->text;
+  TRY(NEW(&p->t, count_lines(csv->text)));
+  TRY(NEW(&p->x, count_lines(csv->text)));
+  TRY(NEW(&p->v, count_lines(csv->text)));
+  TRY(next_row(csv, &found)); /* names */
+  for (p->n = 0;; p->n++) {
+    TRY(next_row(csv, &found));
+    if (!found) break;
+    TRY(read_number(csv, 0, &p->t[p->n]));
+    TRY(read_number(csv, 1, &p->x[p->n]));
+    TRY(read_number(csv, 2, &p->v[p->n]));
+    if (p->n > 0 && p->t[p->n] < p->t[p->n - 1])
+      return fail_row(csv, "its time is before that of the row before; sort them");
+  }
+  return p->n > 0 ? OK : reader_fail(csv->reader, "%s: it has no row of numbers; give at least one", csv->path);
+}
+
+static enum status read_profile(struct reader *reader, const cJSON *value, void *at)
+{
+  struct csv        csv = {.reader = reader};
+  struct table_keys keys;
+  size_t            size;
+  if (cJSON_IsNull(value)) return OK;
+  TRY(read_file(reader, value, &keys));
+  TRY(find_path(reader, keys.file, csv.path));
+  if (files_read(csv.path, CSV_BYTES, &csv.text, &size) != OK) return reader_wrap(reader);
+  enum status status = read_places(&csv, at);
+  memory_free(&csv.text);
+  return status;
+}
+
+static void destroy_profile(void *at)
+{
+  struct profile *p = at;
+  memory_free(&p->t);
+  memory_free(&p->x);
+  memory_free(&p->v);
+}
+
+const struct value_kind value_profile = {"file", read_profile, destroy_profile, "{\"type\": [\"string\", \"null\"]}"};

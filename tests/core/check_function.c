@@ -134,8 +134,9 @@ END_TEST
 
 START_TEST(tables)
 {
-  const double    t[] = {-1, 0.5, 0.75, 3}, v[] = {4, 1, 2, -7};
-  struct function f;
+  const double    t[] = {-1, 0.5, 0.75, 3}, v[] = {4, 1, 2, -7}, *row_t, *row_v;
+  struct function f = {0, NULL};
+  ck_assert_int_eq(function_rows(&f, &row_t, &row_v), 0);
   ck_assert_int_eq(function_table(4, t, v, &f), OK);
   for (int i = 0; i < 4; i++) ck_assert_double_eq(function_value(&f, place, t[i]), v[i]);
   ck_assert_double_eq(function_value(&f, place, -0.25), 2.5);
@@ -144,6 +145,8 @@ START_TEST(tables)
   ck_assert_double_eq(function_value(&f, place, 9), -7);
   ck_assert_ptr_nonnull(f.expression);
   ck_assert_ptr_null(function_text(&f));
+  ck_assert_int_eq(function_rows(&f, &row_t, &row_v), 4);
+  ck_assert(row_t[2] == 0.75 && row_v[3] == -7);
   function_destroy(&f);
   ck_assert_int_eq(function_table(1, t, v, &f), OK);
   ck_assert_double_eq(function_value(&f, place, 7), 4);

@@ -152,6 +152,53 @@ START_TEST(lines)
 }
 END_TEST
 
+/* Liquid below y = 0.1 + depth(x), depth = 0.1 + 0.05 (x + 0.2): columns of cells; points that swell by x. Both show
+ * the same depth along y and the same length along x. */
+static double depth_at(double x) { return 0.1 + 0.05 * (x + 0.2); }
+
+static void fill_to_depth(struct fake_run *r)
+{
+  const struct grid *g = &r->sim.grid;
+  const struct box   cells = grid_cells(g);
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    double x[3];
+    grid_centre(g, c, x);
+    r->state.alpha_cc[c] = fmin(1, fmax(0, (depth_at(x[0]) - (x[1] - 0.15)) / g->h));
+  }
+  for (long p = 0; p < r->sim.points[SET_WATER]->n; p++)
+    r->state.volume_w[p] = grid_cell_volume(g) / 4 * depth_at(r->state.x_w[2 * p]) / 0.5;
+}
+
+static double level(struct fake_run *r, const char *of, double x, double y)
+{
+  struct gauge g = gauge_of("g", GAUGE_LEVEL, of);
+  g.x[0] = x;
+  g.x[1] = y;
+  return sample(r, &g);
+}
+
+START_TEST(levels)
+{
+  struct fake_run r;
+  double          cells = 0;
+  fake_create(2, &r);
+  fake_liquid(&r);
+  fill_to_depth(&r);
+  for (int i = 0; i < 20; i++) cells += 0.1 * fmin(1, fmax(0, depth_at(-0.15 + 0.1 * i) / 0.1 - 1));
+  for (int points = 0; points < 2; points++) {
+    if (points) memory_free(&r.state.alpha_cc);
+    NEAR(level(&r, "y", 0.4, NAN), depth_at(0.4), 1e-12);
+    NEAR(level(&r, "y", 0.47, NAN), depth_at(0.47), points ? 2e-4 : 1e-12);
+    NEAR(level(&r, "y", -0.2, NAN), depth_at(-0.15), points ? 1e-3 : 1e-12); /* the last centre */
+    NEAR(level(&r, "y", 9, NAN), depth_at(1.75), points ? 1e-3 : 1e-12);
+    NEAR(level(&r, "x", NAN, 0.1), points ? 2 * depth_at(0.8) / 0.5 : 2, 1e-12);
+    if (!points) NEAR(level(&r, "x", NAN, 0.25), cells, 1e-12);
+  }
+  fake_destroy(&r);
+}
+END_TEST
+
 START_TEST(regions)
 {
   struct fake_run r;
@@ -374,7 +421,9 @@ START_TEST(wrong_gauges)
   refused(&r, empty, "gauges.g.region");
   refused(&r, nobody, "gauges.g.on");
   refused(&r, gauge_of("g", GAUGE_TRACER, "velocity_y"), "gauges.g.of");
+  refused(&r, gauge_of("g", GAUGE_LEVEL, "q"), "no axis");
   refused(&r, gauge_of("g", GAUGE_INTEGRAL, "water.P"), "volume");
+  refused(&r, gauge_of("g", GAUGE_LEVEL, "y"), "no liquid moves");
   fake_destroy(&r);
 }
 END_TEST
@@ -388,6 +437,7 @@ int main(void)
   tcase_add_test(tests, points_among_points);
   tcase_add_test(tests, blocks_hide_no_point);
   tcase_add_test(tests, lines);
+  tcase_add_test(tests, levels);
   tcase_add_test(tests, regions);
   tcase_add_test(tests, extents);
   tcase_add_test(tests, extent_of_what_hangs_together);

@@ -366,6 +366,116 @@ START_TEST(references_give_scale_and_time)
 }
 END_TEST
 
+/* ---- against measured rows ---- */
+
+/* a front that runs 0.05 s ahead of the table 4 + 3 t, and back to it */
+START_TEST(rows_over_time)
+{
+  struct fake_run r;
+  struct gauge    gauge = ledger_gauge("line", "elastic");
+  struct metric   m[4] = {metric_of("shifted", MEASURE_FIT, "", "line"), metric_of("plain", MEASURE_FIT, "", "line"),
+                          metric_of("little", MEASURE_FIT, "", "line"), metric_of("none", MEASURE_FIT, "", "line")};
+  struct metric_entry e[4];
+  double              times[SAMPLES];
+  const double        t[4] = {0.1, 0.3, 0.5, 0.9}, v[4] = {4.15, 4.75, 5.35, 99};
+  sample_times(times);
+  fake_create(2, &r);
+  for (int i = 0; i < 4; i++) {
+    fake_ok(function_table(4, t, v, &m[i].expected));
+    m[i].to = i == 3 ? 0.05 : 0.6; /* the last row does not count; none does */
+  }
+  m[0].shift = 0.2, m[2].shift = 0.02;
+  r.scene.gauges = &gauge, r.scene.n_gauges = 1, r.scene.metrics = m, r.scene.n_metrics = 4;
+  ck_assert_int_eq(evaluate(&r, SAMPLES, times, oscillate, NULL, e), 4);
+  ck_assert_double_eq_tol(e[0].value, 0, 1e-9);
+  ck_assert_double_eq_tol(e[1].value, 0.15, 1e-9);
+  ck_assert_double_eq_tol(e[2].value, 0.09, 1e-9);
+  ck_assert(isnan(e[3].value));
+  for (int i = 0; i < 4; i++) function_destroy(&m[i].expected);
+  fake_destroy(&r);
+}
+END_TEST
+
+/* P = 100 + 10 x - 30 y along a line, rows 1 and 2 off at one time, 3 off at the other, later ones not asked for */
+START_TEST(rows_over_time_and_place)
+{
+  struct fake_run r;
+  struct gauge    line = {.name = "line", .kind = GAUGE_LINE, .of = "P", .x = {-0.1, 0.3}, .to = {1.1, 0.3}, .n = 7};
+  struct metric   m[2] = {metric_of("m", MEASURE_PROFILE, "", "line"), metric_of("n", MEASURE_PROFILE, "", "line")};
+  struct metric_entry e[2];
+  double       t[5] = {0.2, 0.2, 0.6, 0.6, 0.9}, x[5] = {-0.05, 0.44, 0.2, 1.1, 0.5}, v[5], times[3] = {0, 0.5, 1};
+  const double off[5] = {1, 2, 3, 3, 50};
+  fake_create(2, &r);
+  for (int i = 0; i < 5; i++) v[i] = linear((const double[]){x[i], 0.3, 0}) + off[i];
+  for (int i = 0; i < 2; i++) m[i].profile = (struct profile){5, t, x, v}, m[i].to = 0.8;
+  m[1].from = 0.5;
+  r.scene.gauges = &line, r.scene.n_gauges = 1, r.scene.metrics = m, r.scene.n_metrics = 2;
+  ck_assert_int_eq(evaluate(&r, 3, times, NULL, NULL, e), 2);
+  ck_assert_double_eq_tol(e[0].value, 0.5 * (sqrt(2.5) + 3), 1e-9);
+  ck_assert_double_eq_tol(e[1].value, 3, 1e-9);
+  fake_destroy(&r);
+}
+END_TEST
+
+/* the wave 2 + exp(-1.5 t) sin(12 pi t): from its first trough at 1/8 s to the crest after it; never above 3 */
+START_TEST(rises_and_excesses)
+{
+  struct fake_run r;
+  struct gauge    gauge = ledger_gauge("wave", "kinetic_solid");
+  struct metric   m[3] = {metric_of("rise", MEASURE_RISE, "", "wave"), metric_of("excess", MEASURE_EXCESS, "", "wave"),
+                          metric_of("never", MEASURE_EXCESS, "", "wave")};
+  struct metric_entry e[3];
+  double              times[SAMPLES];
+  sample_times(times);
+  fake_create(2, &r);
+  expect(&m[1], "2 + exp(-1.5*t) - 0.25"), expect(&m[2], "3");
+  m[0].from = 0.125;
+  r.scene.gauges = &gauge, r.scene.n_gauges = 1, r.scene.metrics = m, r.scene.n_metrics = 3;
+  ck_assert_int_eq(evaluate(&r, SAMPLES, times, oscillate, NULL, e), 3);
+  ck_assert_double_eq_tol(e[0].value, exp(-1.5 * 0.125) + exp(-1.5 * 5 / 24.0), 5e-3);
+  ck_assert_double_eq_tol(e[1].value, 0.25, 1e-3);
+  ck_assert_double_eq(e[2].value, 0);
+  for (int i = 0; i < 3; i++) function_destroy(&m[i].expected);
+  fake_destroy(&r);
+}
+END_TEST
+
+/* ---- a body among cells ---- */
+
+/* the lower left 6 x 3 cells, of which one row is gone and lies elsewhere; a border one cell thick, and two */
+START_TEST(bodies_among_cells)
+{
+  struct fake_run r;
+  struct metric   misfit = metric_of("m", MEASURE_MISFIT, "saturation", ""),
+                thick = metric_of("m", MEASURE_THICKNESS, "saturation", "");
+  const struct shape body = {.kind = SHAPE_BOX, .dim = 2, .min = {-1, -1, -1}, .max = {0.4, 0.4, 1}};
+  const double       border[2][4] = {{1, 0.5, 0, 0}, {1, 0.75, 0.25, 0}};
+  fake_create(2, &r);
+  fake_liquid(&r);
+  const struct grid *g = &r.sim.grid;
+  const struct box   cells = grid_cells(g);
+  FOR_BOX_SERIAL(g, cells, c)
+  {
+    double x[3];
+    grid_centre(g, c, x);
+    r.state.alpha_cc[c] = x[0] < 0.4 ? x[1] < 0.3 : x[0] < 1 && x[1] < 0.2;
+  }
+  misfit.region = body;
+  ck_assert_double_eq_tol(evaluate_field(&r, &misfit), 12.0 / 18, 1e-12);
+  for (int k = 0; k < 2; k++) {
+    FOR_BOX_SERIAL(g, cells, c)
+    {
+      double x[3];
+      grid_centre(g, c, x);
+      int i = (int)floor((x[0] + 0.2) / 0.1) - 8;
+      r.state.alpha_cc[c] = border[k][i < 0 ? 0 : i > 3 ? 3 : i];
+    }
+    ck_assert_double_eq_tol(evaluate_field(&r, &thick), k + 1, 1e-12);
+  }
+  fake_destroy(&r);
+}
+END_TEST
+
 /* A run that was to end early is judged by what it could reach. */
 START_TEST(an_early_end)
 {
@@ -477,6 +587,10 @@ int main(void)
   tcase_add_test(tests, gauges_over_time);
   tcase_add_test(tests, peaks);
   tcase_add_test(tests, references_give_scale_and_time);
+  tcase_add_test(tests, rows_over_time);
+  tcase_add_test(tests, rows_over_time_and_place);
+  tcase_add_test(tests, rises_and_excesses);
+  tcase_add_test(tests, bodies_among_cells);
   tcase_add_test(tests, an_early_end);
   tcase_add_test(tests, judgement);
   tcase_add_test(tests, times_and_resume);

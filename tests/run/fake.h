@@ -21,6 +21,8 @@
   FIELD(absent_p, AT_SOLID, 1, STATE, "absent", "-", "not planned, so never allocated")                                \
   FIELD(x_w, AT_WATER, VECTOR, STATE, NULL, "m", "place")                                                              \
   FIELD(P_w, AT_WATER, 1, STATE, "P", "Pa", "pressure of points")                                                      \
+  FIELD(volume_w, AT_WATER, 1, STATE, "volume", "m3", "volume of points")                                              \
+  FIELD(alpha_cc, AT_CELL, 1, STATE, "saturation", "-", "share of a cell")                                             \
   FIELD(P_cc, AT_CELL, 1, STATE, "P", "Pa", "pressure of cells")                                                       \
   FIELD(vel_cc, AT_CELL, VECTOR, STATE, "vel_fluid", "m/s", "velocity of cells")                                       \
   FIELD(flux_fc, AT_FACE, 1, STATE, NULL, "m/s", "flux")                                                               \
@@ -70,7 +72,8 @@ static void fake_allocate(struct fake_run *r)
   for (int i = 0; i < FAKE_FIELD_COUNT; i++) {
     const struct field *f = &fake_fields[i];
     double             *data;
-    if (strcmp(f->name, "absent_p") == 0) continue;
+    if (strcmp(f->name, "absent_p") == 0 || strcmp(f->name, "volume_w") == 0 || strcmp(f->name, "alpha_cc") == 0)
+      continue; /* the last two: only where fake_liquid wants them */
     fake_ok(NEW(&data, count[f->at] * field_components(f, sim->scene)));
     memcpy((char *)&r->state + f->offset, &data, sizeof data);
   }
@@ -161,6 +164,15 @@ static void fake_create(int dim, struct fake_run *r)
   fake_sort(&r->sim.grid, r->sim.points[SET_WATER], r->state.x_w);
   fake_fill_points(r);
   fake_fill_grid(r);
+}
+
+/* saturation of cells, 0, and volumes of water points, a cell's among its points */
+static inline void fake_liquid(struct fake_run *r)
+{
+  fake_ok(NEW(&r->state.alpha_cc, r->sim.grid.size));
+  fake_ok(NEW(&r->state.volume_w, r->sim.points[SET_WATER]->n));
+  for (long p = 0; p < r->sim.points[SET_WATER]->n; p++)
+    r->state.volume_w[p] = grid_cell_volume(&r->sim.grid) / (r->sim.grid.dim == 3 ? 8 : 4);
 }
 
 static void fake_destroy(struct fake_run *r)
