@@ -5,6 +5,7 @@ int field_components(const struct field *f, const struct scene *scene)
 {
   switch (f->components) {
   case VECTOR:
+  case FLUID_VECTORS:
     return scene->dim;
   case MATRIX:
     return scene->dim * scene->dim;
@@ -19,5 +20,5 @@ int field_components(const struct field *f, const struct scene *scene)
 
 int field_copies(const struct field *f, const struct scene *scene)
 {
-  return f->components == FLUIDS && scene->n_fluids > 1 ? scene->n_fluids : 1;
+  return (f->components == FLUIDS || f->components == FLUID_VECTORS) && scene->n_fluids > 1 ? scene->n_fluids : 1;
 }

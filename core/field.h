@@ -19,8 +19,9 @@ enum { FIELD_POISON = 0 };
 #endif
 
 /* components: a number, or one that depends on the dimension, or on the materials (history of their laws). FLUIDS: one
- * number for every fluid of the scene, in a copy of the field for each: [fluid][size], the first fluid in front. */
-enum { VECTOR = -1, MATRIX = -2, HISTORY = -3, FLUIDS = -4, SYMMETRIC = 6 };
+ * number (FLUID_VECTORS: one vector) for every fluid of the scene, in a copy of the field for each: [fluid][size], the
+ * first fluid in front. */
+enum { VECTOR = -1, MATRIX = -2, HISTORY = -3, FLUIDS = -4, FLUID_VECTORS = -5, SYMMETRIC = 6 };
 
 struct scene;
 

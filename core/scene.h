@@ -49,6 +49,7 @@ struct fluid {
   double                 density;      /* kg/m3 at the reference pressure */
   double                 bulk_modulus; /* Pa; INFINITY: incompressible */
   double                 viscosity;    /* Pa s */
+  double                 exchange;     /* kg/m3/s: momentum between fluids of a scene; INFINITY: one velocity */
   const struct eos      *eos;
   void                  *eos_params;
   const struct drag_law *drag;

@@ -1,5 +1,6 @@
 /* The liquid carries its mass and momentum, axis by axis. theory 4.10 */
 #include "ice/advect.h"
+#include "ice/each.h"
 #include "ice/heat.h"
 
 #include "core/parallel.h"
@@ -207,15 +208,19 @@ enum status ice_advect(struct sim *sim, double dt)
   ice_open_rooms(sim, ice);
   find_changes(sim, ice);
   ice_begin_forecast(sim, ice);
-  if (!ice->surface) fill_up(sim, ice);
+  if (!ice->surface && !ice->several) fill_up(sim, ice);
+  if (ice->each_cc) each_follow_mean(sim, ice);
   for (int part = 0; part < parts; part++) {
     plic_begin(&ice->plic, ice->alpha_cc);
     for (int i = 0; i < g->dim; i++) {
       int  axis = plic_axis(g, sim->step + part, i);
       long base = axis * g->size;
-      plic_sweep(&ice->plic, axis, dt / parts, ice->carried_fc + base, ice->alpha_cc, ice->liquid_fc + base);
+      plic_sweep(&ice->plic, axis, dt / parts, (ice->each_cc ? ice->first_fc : ice->carried_fc) + base, ice->alpha_cc,
+                 ice->liquid_fc + base);
       grid_fill_periodic(g, 1, ice->alpha_cc); /* both faces of a seam see the same */
-      if (ice->several) {
+      if (ice->each_cc) {
+        each_pass(sim, ice, axis, dt / parts);
+      } else if (ice->several) {
         ice_pass_fluids(sim, ice, axis, dt / parts);
       } else {
         gather_momentum(sim, ice, axis, dt / parts);

@@ -1,5 +1,6 @@
 /* Cells take the momentum of their faces, and the flux carries mass. theory 4.6 */
 #include "ice/advect.h"
+#include "ice/each.h"
 
 #include "core/parallel.h"
 
@@ -222,7 +223,9 @@ enum status ice_accelerate_cells(struct sim *sim, double dt)
 {
   struct ice *ice = ice_of(sim);
   TRY(watch(sim, ice));
-  if (ice->several)
+  if (ice->each_cc)
+    each_move(sim, ice);
+  else if (ice->several)
     move_several(sim, ice);
   else {
     move_cells(sim, ice);

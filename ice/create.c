@@ -232,6 +232,9 @@ static void weigh_several(struct sim *sim, struct ice *ice)
       for (int d = 0; d < g->dim && m > 0; d++) momentum[d] += m * function_value(&fluid->velocity[d], x, 0);
     }
     for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] = momentum[d] / mass;
+    for (int k = 0; k < ice->n_fluids && ice->each_cc; k++)
+      for (int d = 0; d < g->dim; d++)
+        ice->each_cc[(k * g->size + c) * g->dim + d] = function_value(&scene_fluid(sim->scene, k)->velocity[d], x, 0);
   }
 }
 

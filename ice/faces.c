@@ -146,7 +146,7 @@ static double mixed_velocity(const struct sim *sim, const struct ice *ice, int a
 }
 
 /* of several fluids: mean of both cells by the mass of the halves that the face has of them */
-static double several_velocity(const struct grid *g, const struct ice *ice, int axis, long f)
+double ice_mean_velocity_of(const struct grid *g, const struct ice *ice, int axis, long f)
 {
   const double *lower = ice->lower_fc + axis * g->size;
   long          low = f - g->stride[axis];
@@ -160,7 +160,7 @@ double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis,
   const struct grid *g = &sim->grid;
   long               low = f - g->stride[axis];
   double             momentum = 0, wet = ice->wet_cc[low] + ice->wet_cc[f];
-  if (ice->several) return several_velocity(g, ice, axis, f);
+  if (ice->several) return ice_mean_velocity_of(g, ice, axis, f);
   for (int high = 0; high < 2; high++) {
     long c = high ? f : low;
     if (ice->wet_cc[c] > 0) momentum += ice->porosity_cc[c] * ice->rho_cc[c] * ice->vel_cc[c * g->dim + axis];

@@ -160,6 +160,19 @@ void ice_pass_fluids(struct sim *sim, struct ice *ice, int axis, double dt);
 /** Velocity of the fluid at a face from its wet cells: mean of their momentum over what the face holds, so that a
  * steady flux through a change of porosity stays what it is. */
 double ice_mean_velocity(const struct sim *sim, const struct ice *ice, int axis, long f);
+/** Of several fluids: mean of both cells by the mass of the halves that the face has of them. */
+double ice_mean_velocity_of(const struct grid *g, const struct ice *ice, int axis, long f);
+/** Gradient of a cell potential at a face, zero beyond surfaces and pressure sides, 1/m. */
+double ice_face_gradient(const struct sim *sim, const struct ice *ice, const double *q, int axis, long f);
+/** Whether a cell has a plane that separates the first fluid from the others. */
+bool ice_is_cut(const struct ice *ice, long c);
+/** Density of the grains at a face; 0: there are none. */
+double ice_grain_density(const struct sim *sim, int axis, long f);
+/** kg of fluid k in a volume of the fluids beside the first that leaves a cell: no more than there is. */
+double      ice_mass_of_rest(const struct grid *g, const struct ice *ice, int k, long from, double volume);
+enum status ice_predict_each(struct sim *sim, double dt);
+enum status ice_eliminate_each(struct sim *sim, double dt);
+enum status ice_correct_each(struct sim *sim, double dt);
 /** Kinds of all faces from wet cells and sides. */
 void ice_classify_faces(struct sim *sim, struct ice *ice);
 /** Component of the velocity that the side prescribes at one of its faces, m/s. */

@@ -66,7 +66,7 @@ void ice_find_only(struct sim *sim, struct ice *ice)
 }
 
 /* whether the plane of a cell is worth looking at */
-static bool is_cut(const struct ice *ice, long c)
+bool ice_is_cut(const struct ice *ice, long c)
 {
   return ice->pore_cc[c] > 0 && plic_mixed(ice->alpha_cc[c]) && !plic_is_spray(&ice->plic, c);
 }
@@ -75,7 +75,7 @@ double ice_lower_share(const struct grid *g, const struct ice *ice, int axis, lo
 {
   struct plane plane;
   (void)g;
-  if (!is_cut(ice, c)) return 0.5 * ice->alpha_cc[c];
+  if (!ice_is_cut(ice, c)) return 0.5 * ice->alpha_cc[c];
   plic_reconstruct(&ice->plic, ice->alpha_cc, c, &plane);
   return plic_slab(&plane, axis, false, 0.5);
 }
@@ -90,6 +90,7 @@ static void cut_cell(const struct grid *g, struct ice *ice, long c)
   for (int axis = 0; axis < g->dim; axis++) {
     double s = plic_slab(&plane, axis, false, 0.5);
     ice->lower_fc[axis * g->size + c] = s * dense + (0.5 - s) * thin;
+    if (ice->cut_fc) ice->cut_fc[axis * g->size + c] = s;
   }
 }
 
@@ -100,12 +101,16 @@ static void halve_cells(struct sim *sim, struct ice *ice)
   plic_begin(&ice->plic, ice->alpha_cc);
   FOR_BOX(g, cells, c)
   {
-    if (is_cut(ice, c))
+    if (ice_is_cut(ice, c))
       cut_cell(g, ice, c);
     else
-      for (int axis = 0; axis < g->dim; axis++) ice->lower_fc[axis * g->size + c] = 0.5 * ice->mixture_cc[c];
+      for (int axis = 0; axis < g->dim; axis++) {
+        ice->lower_fc[axis * g->size + c] = 0.5 * ice->mixture_cc[c];
+        if (ice->cut_fc) ice->cut_fc[axis * g->size + c] = 0.5 * ice->alpha_cc[c];
+      }
   }
   ice_fill_faces(sim, ice->lower_fc);
+  if (ice->cut_fc) ice_fill_faces(sim, ice->cut_fc);
 }
 
 enum status ice_mix_fluids(struct sim *sim, double dt)

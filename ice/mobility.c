@@ -54,7 +54,8 @@ static double face_share(const struct grid *g, const struct ice *ice, int fluid,
   return l && h ? 0.5 * (alpha[low] + alpha[f]) : l || h ? alpha[l ? low : f] : 0;
 }
 
-/* drag of several fluids with one velocity: mean of theirs by volume; drag_fc holds that of the first */
+/* drag of several fluids by their volumes: each its own, or with one velocity the sum; drag_fc holds that of the first
+ */
 static void mix_drag(const struct sim *sim, struct ice *ice, int axis, long f0, int n, const double *slip,
                      const double *permeability, const double *diameter)
 {
@@ -63,10 +64,12 @@ static void mix_drag(const struct sim *sim, struct ice *ice, int axis, long f0, 
   long                   base = axis * g->size + f0;
   double                 own[DRAG_BATCH];
   for (int i = 0; i < n; i++) ice->drag_fc[base + i] *= face_share(g, ice, 0, axis, f0 + i);
+  double *sum = ice->drag_fc + base;
   for (int k = 1; k < ice->n_fluids; k++) {
     coupling_drag(sim->scene, scene_fluid(sim->scene, k), n, c->porosity_fc + base, c->fill_fc + base,
                   c->medium_porosity_fc + base, slip, permeability, diameter, own);
-    for (int i = 0; i < n; i++) ice->drag_fc[base + i] += face_share(g, ice, k, axis, f0 + i) * own[i];
+    if (ice->each_cc) sum = ice->drag_fc + k * g->dim * g->size + base;
+    for (int i = 0; i < n; i++) sum[i] = (ice->each_cc ? 0 : sum[i]) + face_share(g, ice, k, axis, f0 + i) * own[i];
   }
 }
 
@@ -150,6 +153,13 @@ static double grain_density(const struct mpm *m, const struct coupling *c, long 
     volume += c->solid_nc[f + offset[i]];
   }
   return volume > 0 ? mass / volume : 0;
+}
+
+double ice_grain_density(const struct sim *sim, int axis, long f)
+{
+  long offset[8];
+  int  corners = grid_node_offsets(&sim->grid, axis, offset);
+  return grain_density(mpm_of(sim), coupling_of(sim), f, corners, offset);
 }
 
 static void eliminate_axis(struct sim *sim, struct ice *ice, int axis, double dt)

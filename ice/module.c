@@ -29,6 +29,9 @@ static bool calm(const struct scene *sc) { return !shocks(sc) && driven(sc); }
 static bool cold_shocks(const struct scene *sc) { return shocks(sc) && !warm(sc); }
 static bool warm_shocks(const struct scene *sc) { return shocks(sc) && warm(sc); }
 static bool several(const struct scene *sc) { return sc->n_fluids > 1 && advects(sc); }
+static bool separate(const struct scene *sc) { return several(sc) && isfinite(sc->fluid.exchange); }
+static bool together(const struct scene *sc) { return driven(sc) && !separate(sc); }
+static bool share_velocity(const struct scene *sc) { return several(sc) && !separate(sc); }
 static bool alone(const struct scene *sc) { return !several(sc); }
 static bool one_advects(const struct scene *sc) { return advects(sc) && alone(sc); }
 static bool sharp(const struct scene *sc) { return one_advects(sc) || prescribed(sc); }
@@ -88,7 +91,12 @@ static const struct stage stages[] = {
     {"ice.resist_faces", SLOT_drag, "u_old_fc s_old_fc porosity_fc fill_fc medium_porosity_fc", "drag_fc", "2.2",
      "only when there is a skeleton", skeleton, ice_resist_faces, NULL},
     {"ice.eliminate_drag", SLOT_eliminate, "u_old_fc s_old_fc gradP_fc rho_cc", "u_fc s_fc u_reply_fc s_reply_fc",
-     "4.3", "not with a prescribed motion", driven, ice_eliminate_drag, NULL},
+     "4.3", "not with a prescribed motion, nor with a finite fluid.exchange", together, ice_eliminate_drag, NULL},
+    {"ice.predict_each", SLOT_eliminate, "each_cc vel_cc mass_cc alpha_cc u_old_fc", "each_cc each_old_fc cut_fc",
+     "4.17", "only with a finite fluid.exchange", separate, ice_predict_each, NULL},
+    {"ice.eliminate_each", SLOT_eliminate, "each_old_fc each_cc s_old_fc gradP_fc mass_cc alpha_cc",
+     "each_fc each_reply_fc u_fc s_fc u_reply_fc s_reply_fc", "4.17", "only with a finite fluid.exchange", separate,
+     ice_eliminate_each, NULL},
     {"ice.solve_pressure", SLOT_pressure, "u_fc s_fc u_reply_fc s_reply_fc flux_fc defect_cc",
      "coupling_fc diagonal_cc rhs_cc dP_cc flux_fc", "4.4", "not with a prescribed motion", driven, ice_solve_pressure,
      NULL},
@@ -98,6 +106,8 @@ static const struct stage stages[] = {
     {"ice.correct_faces_and_trend", SLOT_correct, "dP_cc u_reply_fc s_reply_fc water_fc",
      "u_fc s_fc flux_fc water_fc trend_fc carried_fc P_cc", "4.10", "only with numerics.ice.advection", advects,
      ice_correct_faces, NULL},
+    {"ice.correct_each", SLOT_correct, "dP_cc each_reply_fc carried_fc", "each_fc first_fc", "4.17",
+     "only with a finite fluid.exchange", separate, ice_correct_each, NULL},
     {"ice.move_defect", SLOT_defect, "defect_cc diagonal_cc coupling_fc carried_fc", "shift_cc carried_fc", "4.5",
      "only when a solid moves", moving, ice_move_defect, NULL},
     {"ice.update_cells", SLOT_cells, "u_fc u_old_fc carried_fc mass_cc vel_cc", "mass_cc vel_cc beyond_fc", "4.6",
@@ -133,8 +143,11 @@ static const struct stage stages[] = {
      "room_cc dense_cc inner_cc flat_cc mass_fc momentum_fc energy_fc mass_cc vel_cc rho_cc T_cc P_cc", "4.13",
      "only with numerics.ice.shocks and energy", warm_shocks, ice_carry_shock, NULL},
     {"ice.advect_fluids", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mixture_cc mass_cc vel_cc",
-     "pore_cc liquid_fc passed_fc through_cc alpha_cc mass_cc vel_cc forecast_cc", "4.15", "only with several fluids",
-     several, ice_advect, NULL},
+     "pore_cc liquid_fc passed_fc through_cc alpha_cc mass_cc vel_cc forecast_cc", "4.15",
+     "only with several fluids with one velocity", share_velocity, ice_advect, NULL},
+    {"ice.advect_each", SLOT_cells, "carried_fc first_fc trend_fc vel_start_cc alpha_cc rho_cc mass_cc vel_cc each_cc",
+     "pore_cc liquid_fc passed_fc each_through_cc alpha_cc mass_cc vel_cc each_cc forecast_cc", "4.17",
+     "only with a finite fluid.exchange", separate, ice_advect, NULL},
     {"ice.push_solid", SLOT_to_solid, "s_fc s_old_fc gradP_fc mass_nc solid_nc", "dmom_nc", "4.6",
      "only when a solid moves", moving, ice_push_solid, NULL},
 };

@@ -15,11 +15,10 @@ static double share_of_rest(const struct grid *g, const struct ice *ice, int k, 
   return all > 0 ? ice->alpha_cc[k * g->size + c] / all : 0;
 }
 
-/* kg of fluid k in a volume of the fluids beside the first: no more than there is */
-static double mass_of_rest(const struct grid *g, const struct ice *ice, int k, long from, double volume)
+double ice_mass_of_rest(const struct grid *g, const struct ice *ice, int k, long from, double volume)
 {
   long own = k * g->size + from;
-  return fmin(volume * share_of_rest(g, ice, k, from) * ice->rho_cc[own], ice->mass_cc[own]);
+  return fmin(volume * share_of_rest(g, ice, k, from) * ice->rho_cc[own], fmax(0, ice->mass_cc[own]));
 }
 
 static void pass_masses(struct sim *sim, struct ice *ice, int axis, double dt)
@@ -35,7 +34,7 @@ static void pass_masses(struct sim *sim, struct ice *ice, int axis, double dt)
     double rest = fmax(0, fmin(r * fabs(ice->carried_fc[q]), ice->pore_cc[from]) - liquid);
     ice->passed_fc[q] = sign * fmin(liquid * V * ice->rho_cc[from], fmax(0, ice->mass_cc[from]));
     for (int k = 1; k < ice->n_fluids; k++)
-      ice->passed_fc[k * copy + q] = rest > 0 ? sign * mass_of_rest(g, ice, k, from, rest * V) : 0;
+      ice->passed_fc[k * copy + q] = rest > 0 ? sign * ice_mass_of_rest(g, ice, k, from, rest * V) : 0;
   }
 }
 

@@ -194,7 +194,7 @@ enum status ice_solve_pressure(struct sim *sim, double dt)
 }
 
 /* gradient of a cell potential at a face, zero beyond surfaces and pressure sides, 1/m */
-static double face_gradient(const struct sim *sim, const struct ice *ice, const double *q, int axis, long f)
+double ice_face_gradient(const struct sim *sim, const struct ice *ice, const double *q, int axis, long f)
 {
   long   low = f - sim->grid.stride[axis];
   double high_q = ice->wet_cc[f] > 0 ? q[f] : 0, low_q = ice->wet_cc[low] > 0 ? q[low] : 0;
@@ -211,7 +211,7 @@ static void correct_axis(struct sim *sim, struct ice *ice, int axis, double dt)
     long   q = axis * g->size + i;
     double n = ice->porosity_fc[q], open = ice->open_fc[q], water = 0;
     if (ice_face_active(ice->kind[q])) {
-      double push = theta * dt * face_gradient(sim, ice, ice->dP_cc, axis, i);
+      double push = theta * dt * ice_face_gradient(sim, ice, ice->dP_cc, axis, i);
       ice->u_fc[q] -= ice->u_reply_fc[q] * push;
       ice->s_fc[q] -= ice->s_reply_fc[q] * push;
       water = open * n * ice->u_fc[q];
@@ -262,7 +262,7 @@ enum status ice_move_defect(struct sim *sim, double dt)
       if (!ice_face_active(ice->kind[q])) continue;
       double n = ice->porosity_fc[q], reply = n * ice->u_reply_fc[q] + (1 - n) * ice->s_reply_fc[q];
       reply *= ice->open_fc[q];
-      ice->carried_fc[q] -= theta * theta * dt * reply * face_gradient(sim, ice, ice->shift_cc, axis, i);
+      ice->carried_fc[q] -= theta * theta * dt * reply * ice_face_gradient(sim, ice, ice->shift_cc, axis, i);
     }
   }
   return OK;

@@ -128,6 +128,7 @@ const char *fields_suffix(const struct field *f, const struct scene *scene, int 
   case FLUIDS:
     return "";
   case VECTOR:
+  case FLUID_VECTORS:
     return vector[component];
   case SYMMETRIC:
     return symmetric[component];

@@ -107,7 +107,7 @@ static enum status mesh_of_cells(const struct grid *g, struct mesh *m)
 static int padded_components(const struct field_view *v)
 {
   const int components = v->field->components;
-  return components == VECTOR ? 3 : components == MATRIX ? 9 : v->components;
+  return components == VECTOR || components == FLUID_VECTORS ? 3 : components == MATRIX ? 9 : v->components;
 }
 
 /* One entry with the missing components of 2D as zeros. */

@@ -138,6 +138,10 @@ static const struct param fluid_params[] = {
     {"bulk_modulus", PARAM_NUMBER, AT(fluid, bulk_modulus), "Pa", 1e-6, INFINITY, "2.2e9", NULL,
      "bulk modulus; \"infinite\": incompressible"},
     {"viscosity", PARAM_NUMBER, AT(fluid, viscosity), "Pa s", 0, 1e6, "1e-3", NULL, "dynamic viscosity"},
+    {"exchange", PARAM_NUMBER, AT(fluid, exchange), "kg/m3/s", 0, INFINITY, "infinite", NULL,
+     "momentum that two fluids at one place exchange per volume and difference of velocity; \"infinite\": all fluids "
+     "share "
+     "one velocity"},
     {"velocity", PARAM_FUNCTION3, AT(fluid, velocity), "m/s", 0, 0, ZERO_DEFAULT, NULL, "velocity at the start"},
     {"motion", PARAM_CHOICE, AT(fluid, prescribed), "-", 0, 0, "free", "free|prescribed",
      "prescribed: the velocity, times the strength, is that of all times and carries the fluid, which has no pressure"},

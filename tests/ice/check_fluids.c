@@ -135,6 +135,88 @@ START_TEST(drop_in_air)
 }
 END_TEST
 
+/* ---- velocities of their own ---- */
+
+#define SLIP                                                                                                           \
+  "{\"grid\": {\"min\": [0, 0], \"max\": [1, 0.1], \"h\": 0.1}, \"time\": {\"end\": 1}, \"start\": \"zero\"" WATER(    \
+      ", \"pressure\": 101325, \"viscosity\": 0, \"velocity\": [1, 0]" BELOW(                                          \
+          "0.03")) ", \"fluids\": {\"oil\": {\"density\": 500, \"bulk_modulus\": 1e9, \"viscosity\": 0, "              \
+                   "\"velocity\": [0.2, 0], "                                                                          \
+                   "\"eos\": {\"law\": \"linear_water\", \"reference_pressure\": 101325}}}, \"boundary\": "            \
+                   "{\"fluid\": {\"x_min\": "                                                                          \
+                   "\"periodic\", \"x_max\": \"periodic\"}}, \"numerics\": {\"dt_max\": 1e-3, \"ice\": "               \
+                   "{\"advection\": true}}}"
+
+/* two layers that slide on one another: free of one another, slowed down by the exchange, one from the first step on;
+ * momentum stays to round-off */
+START_TEST(layers_slide)
+{
+  static const char *const exchange[] = {"fluid.exchange=0", "fluid.exchange=500", "fluid.exchange=1e15"};
+  static const double      X[] = {0, 500, INFINITY};
+  const char              *sets[] = {exchange[_i], NULL};
+  struct scene_run         run;
+  scene_open_with(SLIP, sets, &run);
+  const struct ice *ice = ice_of(run.sim);
+  double            rb[2] = {300, 350}, mean = (rb[0] * 1 + rb[1] * 0.2) / 650, t = 0.2;
+  double            left = isinf(X[_i]) ? 0 : 0.8 * exp(-X[_i] * t * (1 / rb[0] + 1 / rb[1]));
+  struct ledger     before = scene_ledger(&run);
+  while (run.sim->t < t) scene_step(&run, t - run.sim->t);
+  long c = grid_at(&run.sim->grid, 4, 0, 0), size = run.sim->grid.size;
+  ck_assert_double_eq_tol(ice->each_cc[2 * c], mean + rb[1] / 650 * left, 1e-3);
+  ck_assert_double_eq_tol(ice->each_cc[2 * (size + c)], mean - rb[0] / 650 * left, 1e-3);
+  ck_assert_double_eq_tol(scene_ledger(&run).v[LEDGER_momentum_x], before.v[LEDGER_momentum_x], 1e-12);
+  scene_close(&run);
+}
+END_TEST
+
+/* layers rest, free of one another or not, clear and in stones; a large exchange moves as one velocity does */
+START_TEST(layers_rest_apart)
+{
+  static const char *const exchange[] = {"fluid.exchange=0", "fluid.exchange=1e5", "fluid.exchange=1e15"};
+  static const int         which[] = {0, 1, 6, 7};
+  for (int i = 0; i < 4; i++) {
+    const char      *sets[] = {exchange[_i], NULL};
+    struct scene_run run;
+    scene_open_with(still[which[i]].text, sets, &run);
+    struct ledger before = scene_ledger(&run), after;
+    scene_steps(&run, 100, INFINITY);
+    after = scene_ledger(&run);
+    ck_assert_msg(fastest(&run) < 1e-11, "%g m/s", fastest(&run));
+    ck_assert_double_eq_tol(after.v[LEDGER_mass_others], before.v[LEDGER_mass_others],
+                            1e-14 * before.v[LEDGER_mass_others]);
+    scene_close(&run);
+  }
+}
+END_TEST
+
+static double drop_after(const char *exchange, double *energy)
+{
+  const char      *sets[] = {exchange, NULL};
+  struct scene_run run;
+  scene_open_with(DROP("[3, -1]"), sets, &run);
+  struct ledger before = scene_ledger(&run), after;
+  scene_steps(&run, 100, 2e-3);
+  after = scene_ledger(&run);
+  for (int d = 0; d < 2; d++) {
+    double p = before.v[LEDGER_momentum_x + d];
+    ck_assert_double_eq_tol(after.v[LEDGER_momentum_x + d], p, 1e-11 * fabs(p));
+  }
+  *energy = after.v[LEDGER_kinetic_fluid] / before.v[LEDGER_kinetic_fluid];
+  double t = run.sim->t;
+  scene_close(&run);
+  return t;
+}
+
+START_TEST(large_exchange_is_one_velocity)
+{
+  double one, large, none;
+  ck_assert_double_eq_tol(drop_after("fluid.exchange=infinite", &one), drop_after("fluid.exchange=1e15", &large), 1e-2);
+  drop_after("fluid.exchange=0", &none);
+  ck_assert_msg(fabs(one - large) < 0.003, "energy left: %g, %g", one, large);
+  ck_assert_double_gt(none, 0.9);
+}
+END_TEST
+
 /* ---- standing wave under air ---- */
 
 #define WAVE                                                                                                           \
@@ -204,6 +286,9 @@ int main(void)
   tcase_add_loop_test(fluids, layers_stay, 0, STILL);
   tcase_add_test(fluids, common_motion);
   tcase_add_test(fluids, drop_in_air);
+  tcase_add_loop_test(fluids, layers_slide, 0, 3);
+  tcase_add_loop_test(fluids, layers_rest_apart, 0, 3);
+  tcase_add_test(fluids, large_exchange_is_one_velocity);
   tcase_add_test(fluids, wave_under_air);
   tcase_add_test(fluids, fields_of_fluids);
   suite_add_tcase(suite, fluids);
