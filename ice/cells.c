@@ -82,11 +82,12 @@ static bool face_change(const struct sim *sim, const struct ice *ice, long c, in
   return n > 0;
 }
 
-/* else moves with the cells beside it that have one, */
+/* else follows the cells beside it that have one, but only half: all of it would feed thin tongues, none slow waves */
 static bool neighbour_change(const struct sim *sim, const struct ice *ice, long c, int d, double *change)
 {
-  const struct grid *g = &sim->grid;
-  int                n = 0;
+  static const double follows = 0.5;
+  const struct grid  *g = &sim->grid;
+  int                 n = 0;
   *change = 0;
   for (int e = 0; e < g->dim; e++)
     for (int side = -1; side <= 1 && e != d; side += 2) {
@@ -95,7 +96,7 @@ static bool neighbour_change(const struct sim *sim, const struct ice *ice, long 
       *change += pressed_change(sim, ice, beside, d);
       n++;
     }
-  *change /= n > 0 ? n : 1;
+  *change *= follows / (n > 0 ? n : 1);
   return n > 0;
 }
 
