@@ -371,6 +371,7 @@ static void fill_record(const struct run *r, struct run_record *record)
     record->points_deleted = (long)s->deleted;
     record->points_flowed_out = (long)s->flowed_out;
   }
+  summary_add_water(sim, record);
   fill_ledger(r, record);
   start_check_fill(sim, &r->counts.start, &record->start);
 }

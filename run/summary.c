@@ -3,6 +3,7 @@
 
 #include "run/files.h"
 #include "run/json.h"
+#include "twopoint/twopoint.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,6 +27,7 @@ static void add_what(cJSON *root, const struct run_record *r)
   number(strays, "put_back", (double)r->points_put_back);
   number(strays, "deleted", (double)r->points_deleted);
   number(strays, "flowed_out", (double)r->points_flowed_out);
+  if (r->density_change >= 0) number(root, "density_change", r->density_change);
   number(root, "steps", (double)r->steps);
   number(root, "t_end", r->t_end);
 }
@@ -133,8 +135,31 @@ enum status summary_write(const char *folder, const struct run_record *record)
   return s;
 }
 
+void summary_add_water(const struct sim *sim, struct run_record *record)
+{
+  const struct twopoint *w = twopoint_of(sim);
+  record->density_change = w ? w->now.density_change : -1;
+  if (!w) return;
+  record->points_put_back += (long)w->now.put_back;
+  record->points_deleted += (long)w->now.deleted;
+  record->points_flowed_out += (long)w->now.flowed_out;
+}
+
+/* above it water is no longer nearly incompressible */
+static const double largest_change = 0.03;
+
+static void print_density(double change)
+{
+  if (change < 0) return;
+  printf("density of the water changed by up to %.2g %%\n", 100 * change);
+  if (change > largest_change)
+    fprintf(stderr, "mpmice: warning: more than %g %% is not nearly incompressible; raise fluid.bulk_modulus\n",
+            100 * largest_change);
+}
+
 void summary_print(const struct run_record *record)
 {
+  print_density(record->density_change);
   for (int i = 0; i < record->n_metrics; i++) {
     const struct metric_entry *m = &record->metrics[i];
     if (i == 0) printf("%-24s %12s %-8s %12s  %s\n", "metric", "value", "unit", "limit", "");

@@ -15,7 +15,25 @@ void twopoint_finish_average(struct sim *sim, struct twopoint *w, const struct k
   boundary_ghosts(kg, w->sides, 1, sim->t, w->average_nc);
 }
 
-void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient)
+/* no more than a share of the room of these nodes is filled: the surface passes by. 7 */
+enum status twopoint_find_surface(struct sim *sim, double dt)
+{
+  (void)dt;
+  struct twopoint *w = twopoint_of(sim);
+  struct box       all = grid_all(&sim->grid);
+  FOR_BOX(&sim->grid, all, i)
+  w->surface_nc[i] = w->water_room_nc[i] > 0 && w->water_volume_nc[i] < w->params->surface_fill * w->water_room_nc[i];
+  return OK;
+}
+
+static void empty_surface(struct sim *sim, struct twopoint *w)
+{
+  struct box all = grid_all(&sim->grid);
+  FOR_BOX(&sim->grid, all, i)
+  if (w->surface_nc[i] > 0) w->average_nc[i] = 0;
+}
+
+void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient, bool pressure)
 {
   struct scatter_args to_nodes = {.n = 2,
                                   .x = w->x_w,
@@ -30,5 +48,6 @@ void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gr
   fold(w, w->weight_nc);
   fold(w, w->average_nc);
   twopoint_finish_average(sim, w, &w->average_grid, w->weight_nc);
+  if (pressure && w->surface_nc) empty_surface(sim, w);
   FOR_RUNS_READING(w->points, run, group) w->kernels->gather(&w->average_grid, &run, &to_points);
 }

@@ -96,6 +96,7 @@ static enum status create_grids(struct sim *sim, struct twopoint *w)
   TRY(NEW(&w->solid_bound, n));
   mark_bound(sim, w->sides, w->water_star_nc, w->water_bound);
   mark_bound(sim, scene->solid_side, w->water_star_nc, w->solid_bound);
+  TRY(NEW(&w->run_change, w->points->n_runs));
   return NEW(&w->run_speed, w->points->n_runs);
 }
 
@@ -212,4 +213,5 @@ void twopoint_destroy(void *state)
   memory_free(&w->solid_bound);
   memory_free(&w->run_speed);
   twopoint_destroy_walls(w);
+  memory_free(&w->run_change);
 }

@@ -16,6 +16,10 @@ static const struct param params[] = {
      "how fast points leave nodes that hold more than their room: diffusion in h2 per step; 0: they stay"},
     {"shear", PARAM_FLAG, offsetof(struct twopoint_params, shear), "-", 0, 1, "true", NULL,
      "whether the viscosity of the water resists shear, not only in drag"},
+    {"surface_fill", PARAM_NUMBER, offsetof(struct twopoint_params, surface_fill), "-", 0, 0.9, "0", NULL,
+     "nodes with less of their room filled are at a free surface: averages of the pressure are 0 there; 0: none are"},
+    {"as_printed", PARAM_FLAG, offsetof(struct twopoint_params, as_printed), "-", 0, 1, "false", NULL,
+     "the forms of the two-point paper, for comparison: they do not work where soil and free water meet"},
     {"jitter", PARAM_NUMBER, offsetof(struct twopoint_params, jitter), "-", 0, 0.5, "0", NULL,
      "largest random displacement of a water point at the start along each axis, over the spacing; see seed"},
     PARAM_END,
@@ -40,16 +44,25 @@ static bool still(const struct scene *sc) { return !mpm_solid_moves(sc); }
 static bool affine(const struct scene *sc) { return mpm_transfer_affine(sc); }
 static bool plain(const struct scene *sc) { return !mpm_transfer_affine(sc); }
 static bool shear(const struct scene *sc) { return params_of(sc)->shear && sc->fluid.viscosity > 0; }
-static bool skeleton_alone(const struct scene *sc) { return skeleton(sc) && !shear(sc); }
-static bool skeleton_shear(const struct scene *sc) { return skeleton(sc) && shear(sc); }
-static bool bare_alone(const struct scene *sc) { return bare(sc) && !shear(sc); }
-static bool bare_shear(const struct scene *sc) { return bare(sc) && shear(sc); }
-static bool increment(const struct scene *sc) { return params_of(sc)->average_increment; }
-static bool no_increment(const struct scene *sc) { return !params_of(sc)->average_increment; }
-static bool averaging(const struct scene *sc) { return params_of(sc)->averaging_interval > 0; }
+static bool printed(const struct scene *sc) { return params_of(sc)->as_printed; }
+static bool filled(const struct scene *sc) { return skeleton(sc) && !printed(sc); }
+static bool printed_skeleton(const struct scene *sc) { return skeleton(sc) && printed(sc); }
+static bool printed_moving(const struct scene *sc) { return moving(sc) && printed(sc); }
+static bool printed_held(const struct scene *sc) { return held(sc) && printed(sc); }
+/* the increment of volume comes with the water's own velocity gradient */
+static bool own(const struct scene *sc) { return bare(sc) || printed(sc); }
+static bool flux_alone(const struct scene *sc) { return !own(sc) && !shear(sc); }
+static bool flux_shear(const struct scene *sc) { return !own(sc) && shear(sc); }
+static bool own_alone(const struct scene *sc) { return own(sc) && !shear(sc); }
+static bool own_shear(const struct scene *sc) { return own(sc) && shear(sc); }
+static bool increment(const struct scene *sc) { return params_of(sc)->average_increment && !printed(sc); }
+static bool no_increment(const struct scene *sc) { return !increment(sc); }
+static bool increment_alone(const struct scene *sc) { return no_increment(sc) && !printed(sc); }
+static bool averaging(const struct scene *sc) { return params_of(sc)->averaging_interval > 0 && !printed(sc); }
+static bool surface(const struct scene *sc) { return params_of(sc)->surface_fill > 0; }
 static bool shifting(const struct scene *sc) { return params_of(sc)->shifting > 0; }
 
-#define TO_NODES "x_w vel_w mass_w volume_w P_w shear_w? water_fill_nc"
+#define TO_NODES "x_w vel_w mass_w volume_w P_w averaged_w? shear_w? water_fill_nc"
 #define AT_NODES "push_w water_mass_nc water_mom_nc water_force_nc water_vel_nc"
 #define MOVE "water_vel_nc water_vel_new_nc x_w vel_w"
 #define STATE_OF "dlnJ_w J_w mass_w porosity_w"
@@ -58,8 +71,12 @@ static const struct stage stages[] = {
     {"twopoint.sort_points", SLOT_sort, "x_w", "x_w", "twopoint 3", "always", NULL, twopoint_sort_points, NULL},
     {"twopoint.find_porosity", SLOT_fluid_to_nodes,
      "solid_nc bulk_nc room_nc water_room_nc water_volume_nc water_pores_nc",
-     "skeleton_porosity_nc porosity_nc water_fill_nc", "twopoint 2", "only with a skeleton", skeleton,
+     "skeleton_porosity_nc porosity_nc water_fill_nc", "twopoint 2", "only with a skeleton", filled,
      twopoint_find_porosity, NULL},
+    {"twopoint.find_porosity_printed", SLOT_fluid_to_nodes,
+     "x_p volume_p volume_solid_p solid_nc water_room_nc water_volume_nc water_pores_nc",
+     "medium_porosity_p skeleton_porosity_nc porosity_nc water_fill_nc", "twopoint 14", "only as printed",
+     printed_skeleton, twopoint_find_porosity_printed, NULL},
     {"twopoint.find_fill", SLOT_fluid_to_nodes, "water_room_nc water_volume_nc", "water_fill_nc", "twopoint 2",
      "only without a skeleton", bare, twopoint_find_fill, NULL},
     {"twopoint.points_to_nodes", SLOT_fluid_to_nodes, TO_NODES " affine_w", AT_NODES, "twopoint 3",
@@ -87,15 +104,20 @@ static const struct stage stages[] = {
      "water_vel_new_nc water_room_nc", "twopoint 13", "only with obstacles in the water", twopoint_walled,
      twopoint_meet_walls, twopoint_walls_dt},
     {"twopoint.strain_water", SLOT_fluid_points, "x_w water_vel_new_nc vel_new_nc? skeleton_porosity_nc porosity_nc",
-     "flux_nc gradq_w dlnJ_w porosity_w", "twopoint 6", "only with a skeleton", skeleton, twopoint_strain_water, NULL},
+     "flux_nc gradq_w dlnJ_w porosity_w", "twopoint 6", "only with a skeleton", filled, twopoint_strain_water, NULL},
+    {"twopoint.strain_solid_printed", SLOT_fluid_points, "x_w vel_new_nc skeleton_porosity_nc",
+     "gradq_w solid_dlnJ_w porosity_w", "twopoint 14", "only as printed, when a solid moves", printed_moving,
+     twopoint_strain_solid_printed, NULL},
+    {"twopoint.see_porosity_printed", SLOT_fluid_points, "x_w skeleton_porosity_nc", "porosity_w", "twopoint 14",
+     "only as printed, when the skeleton is held", printed_held, twopoint_strain_solid_printed, NULL},
     {"twopoint.nodes_to_points", SLOT_fluid_points, MOVE, "x_w vel_w", "twopoint 3",
-     "only with a skeleton, without shear", skeleton_alone, twopoint_nodes_to_points, twopoint_speed_limit},
+     "only with a skeleton, without shear", flux_alone, twopoint_nodes_to_points, twopoint_speed_limit},
     {"twopoint.move_and_shear", SLOT_fluid_points, MOVE, "x_w vel_w shear_w", "twopoint 3",
-     "only with a skeleton and shear", skeleton_shear, twopoint_nodes_to_points, twopoint_shear_limit},
+     "only with a skeleton and shear", flux_shear, twopoint_nodes_to_points, twopoint_shear_limit},
     {"twopoint.move_and_strain", SLOT_fluid_points, MOVE, "x_w vel_w dlnJ_w", "twopoint 3",
-     "only without a skeleton and shear", bare_alone, twopoint_nodes_to_points, twopoint_speed_limit},
+     "only without a skeleton and shear", own_alone, twopoint_nodes_to_points, twopoint_speed_limit},
     {"twopoint.move_strain_and_shear", SLOT_fluid_points, MOVE, "x_w vel_w dlnJ_w shear_w", "twopoint 3",
-     "only without a skeleton, with shear", bare_shear, twopoint_nodes_to_points, twopoint_shear_limit},
+     "only without a skeleton, with shear", own_shear, twopoint_nodes_to_points, twopoint_shear_limit},
     {"twopoint.expel_points", SLOT_fluid_points, "x_w vel_w", "x_w vel_w", "twopoint 13",
      "only with obstacles in the water", twopoint_walled, twopoint_expel_points, NULL},
     {"twopoint.sort_moved", SLOT_fluid_points, "x_w", "x_w", "twopoint 3", "always", NULL, twopoint_sort_points, NULL},
@@ -107,8 +129,15 @@ static const struct stage stages[] = {
     {"twopoint.update_pressure", SLOT_fluid_points, STATE_OF " average_nc water_volume_nc", "dlnJ_w J_w P_w volume_w",
      "twopoint 6", "only with averages of the increment", increment, twopoint_update_pressure, twopoint_wave_limit},
     {"twopoint.update_pressure_alone", SLOT_fluid_points, STATE_OF, "J_w P_w volume_w", "twopoint 6",
-     "only without averages of the increment", no_increment, twopoint_update_pressure, twopoint_wave_limit},
-    {"twopoint.average_pressure", SLOT_fluid_points, "x_w volume_w P_w gradP_w",
+     "only without averages of the increment", increment_alone, twopoint_update_pressure, twopoint_wave_limit},
+    {"twopoint.update_pressure_printed", SLOT_fluid_points, STATE_OF " x_w P_w volume_w solid_dlnJ_w?",
+     "weight_nc average_nc averaged_w J_w P_w volume_w", "twopoint 14", "only as printed", printed,
+     twopoint_update_pressure_printed, twopoint_wave_limit},
+    {"twopoint.find_surface", SLOT_fluid_points, "water_volume_nc water_room_nc", "surface_nc", "twopoint 7",
+     "only with a fill of surfaces", surface, twopoint_find_surface, NULL},
+    {"twopoint.average_push_printed", SLOT_fluid_points, "x_w volume_w P_w surface_nc?",
+     "weight_nc average_nc averaged_w", "twopoint 14", "only as printed", printed, twopoint_average_push_printed, NULL},
+    {"twopoint.average_pressure", SLOT_fluid_points, "x_w volume_w P_w gradP_w surface_nc?",
      "weight_nc average_nc P_w gradP_w J_w volume_w", "twopoint 7", "only with an averaging interval", averaging,
      twopoint_average_pressure, NULL},
     {"twopoint.shift_points", SLOT_fluid_points, "x_w water_volume_nc water_room_nc", "excess_nc slope_w x_w",

@@ -20,10 +20,21 @@ static double fastest(const struct twopoint *w, int dim, long begin, long end)
   return sqrt(largest);
 }
 
+/* largest |J - 1| of points: to first order that of their density */
+static double change(const struct twopoint *w, long begin, long end)
+{
+  double largest = 0;
+  for (long p = begin; p < end; p++) largest = fmax(largest, fabs(w->J_w[p] - 1));
+  return largest;
+}
+
 static enum status join_speeds(const struct sim *sim, struct twopoint *w)
 {
   w->now.speed = 0;
-  for (long r = 0; r < w->points->n_runs; r++) w->now.speed = fmax(w->now.speed, w->run_speed[r]);
+  for (long r = 0; r < w->points->n_runs; r++) {
+    w->now.speed = fmax(w->now.speed, w->run_speed[r]);
+    w->now.density_change = fmax(w->now.density_change, w->run_change[r]);
+  }
   if (w->now.speed < INFINITY) return OK;
   return FAIL(ERR_DIVERGED,
               "twopoint: water points have no finite velocity at t = %g s; lower numerics.dt_factor or raise "
@@ -41,6 +52,7 @@ enum status twopoint_find_speed(struct sim *sim, struct twopoint *w)
 struct strain {
   struct twopoint *w;
   int              dim;
+  bool             strains; /* the increment of volume is that of the water's own velocity */
   double           dt, viscosity;
 };
 
@@ -61,7 +73,7 @@ static void strain_points(void *context, long first, int n, const double *gradv)
   int                  dim = s->dim;
   for (int i = 0; i < n; i++, gradv += dim * dim) {
     double divergence = gradv[0] + gradv[dim + 1] + (dim == 3 ? gradv[8] : 0);
-    if (!w->coupling) w->dlnJ_w[first + i] = s->dt * divergence;
+    if (s->strains) w->dlnJ_w[first + i] = s->dt * divergence;
     if (w->shear_w) shear_stress(dim, s->viscosity, gradv, divergence, w->shear_w + 6 * (first + i));
   }
 }
@@ -69,7 +81,8 @@ static void strain_points(void *context, long first, int n, const double *gradv)
 enum status twopoint_nodes_to_points(struct sim *sim, double dt)
 {
   struct twopoint      *w = twopoint_of(sim);
-  struct strain         strain = {w, sim->grid.dim, dt, sim->scene->fluid.viscosity};
+  bool                  strains = !w->coupling || w->params->as_printed;
+  struct strain         strain = {w, sim->grid.dim, strains, dt, sim->scene->fluid.viscosity};
   const struct g2p_args args = {.dt = dt,
                                 .beta = mpm_blend(sim, dt),
                                 .vel_old_nc = w->water_vel_nc,
@@ -77,13 +90,14 @@ enum status twopoint_nodes_to_points(struct sim *sim, double dt)
                                 .x = w->x_w,
                                 .vel = w->vel_w,
                                 .affine = w->affine_w,
-                                .strain = !w->coupling || w->shear_w ? strain_points : NULL,
+                                .strain = strains || w->shear_w ? strain_points : NULL,
                                 .context = &strain};
   memset(w->run_speed, 0, (size_t)w->points->n_runs * sizeof *w->run_speed);
   FOR_RUNS_READING(w->points, run, group)
   {
     w->kernels->g2p(&w->kernel_grid, &run, &args);
     w->run_speed[run.index] = fastest(w, sim->grid.dim, run.begin, run.end);
+    w->run_change[run.index] = change(w, run.begin, run.end);
   }
   points_wrap(&sim->grid, w->points->n, w->x_w);
   return join_speeds(sim, w);

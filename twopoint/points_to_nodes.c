@@ -19,9 +19,10 @@ static double fill_at(const struct twopoint *w, int dim, long p)
 /* spray and surfaces do not pull; the state keeps its sign, or averages would pump volume in */
 static void find_push(const struct twopoint *w, int dim, long begin, long end)
 {
+  const double *P = w->averaged_w ? w->averaged_w : w->P_w;
   for (long p = begin; p < end; p++) {
-    bool pulls = w->P_w[p] >= 0 || w->params->tension || fill_at(w, dim, p) >= full_enough;
-    w->push_w[p] = pulls ? w->P_w[p] : 0;
+    bool pulls = P[p] >= 0 || w->params->tension || fill_at(w, dim, p) >= full_enough;
+    w->push_w[p] = pulls ? P[p] : 0;
   }
 }
 

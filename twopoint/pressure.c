@@ -118,7 +118,7 @@ enum status twopoint_average_pressure(struct sim *sim, double dt)
   (void)dt;
   struct twopoint *w = twopoint_of(sim);
   if (sim->step % w->params->averaging_interval != 0) return OK;
-  twopoint_average(sim, w, w->P_w, w->gradP_w);
+  twopoint_average(sim, w, w->P_w, w->gradP_w, true);
   twopoint_volume_of_pressure(sim, w);
   return OK;
 }

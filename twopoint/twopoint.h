@@ -15,6 +15,8 @@ struct twopoint_params {
   double max_expansion;      /* J is at most 1 + this */
   double shifting;           /* share of the excess at a node that shifts points in a step, roughly; 0: none do */
   bool   shear;              /* viscosity resists shear */
+  double surface_fill;       /* nodes with less of their room filled have pressure 0 in averages; 0: none */
+  bool   as_printed;         /* the paper's forms, for comparison */
   double jitter;             /* spacings: largest random displacement of a point at the start, along each axis */
 };
 
@@ -31,7 +33,7 @@ struct twopoint {
   struct kernel_grid            kernel_grid;
   struct kernel_grid            average_grid; /* walls extrapolate: averages keep linear fields up to the wall */
   unsigned char                *water_bound, *solid_bound; /* [size][dim] 1: a wall prescribes this component */
-  double                       *run_speed;                 /* [n_runs] m/s, fastest point */
+  double                       *run_speed, *run_change;    /* [n_runs] m/s, fastest point; largest |J - 1| */
   double                        mass_floor;                /* kg: a node with less water has no velocity */
   double                        rho0;                      /* kg/m3 at P = 0 */
   double                        fast_wave;                 /* m/s, c_f */
@@ -43,6 +45,11 @@ struct twopoint {
     double              mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
     double              momentum_out[3];               /* kg m/s; these two also lost when points were put back */
     struct wall_numbers wall[SIDES + MAX_OBSTACLES];   /* what obstacles did to the water */
+    double              speed;                         /* m/s, fastest point of the last step */
+    double              put_back, deleted, flowed_out; /* points that left the grid, since the start */
+    double              mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
+    double              momentum_out[3];               /* kg m/s; these two also lost when points were put back */
+    double              density_change;                /* largest |rho_0/rho - 1| of all points, since the start */
   } now;
 };
 
@@ -74,6 +81,11 @@ enum status twopoint_gather_water(struct sim *sim, double dt);
 enum status twopoint_update_pressure(struct sim *sim, double dt);
 enum status twopoint_average_pressure(struct sim *sim, double dt);
 enum status twopoint_shift_points(struct sim *sim, double dt);
+enum status twopoint_find_surface(struct sim *sim, double dt);
+enum status twopoint_find_porosity_printed(struct sim *sim, double dt);
+enum status twopoint_strain_solid_printed(struct sim *sim, double dt);
+enum status twopoint_update_pressure_printed(struct sim *sim, double dt);
+enum status twopoint_average_push_printed(struct sim *sim, double dt);
 double      twopoint_speed_limit(const struct sim *sim);
 double      twopoint_shear_limit(const struct sim *sim);
 double      twopoint_wave_limit(const struct sim *sim);
@@ -91,8 +103,9 @@ void twopoint_gather_volumes(struct sim *sim, struct twopoint *w, const double *
 /** J_w and volume_w from P_w, by the law. */
 void twopoint_volume_of_pressure(const struct sim *sim, struct twopoint *w);
 /** Replaces q [n] of the points by its average over volume, point -> node -> point; gradient [n][dim]: of q at the
- * points, used so that linear fields stay as they are, then replaced by that of the average; NULL: zeroth order. */
-void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient);
+ * points, used so that linear fields stay as they are, then replaced by that of the average; NULL: zeroth order.
+ * pressure: q is 0 at surface nodes, where the scene has them found. */
+void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient, bool pressure);
 /** What was gathered in average_nc becomes a mean: weight [size] m3. */
 void twopoint_finish_average(struct sim *sim, struct twopoint *w, const struct kernel_grid *kg, const double *weight);
 /** Fastest point. ERR_DIVERGED if it has no finite velocity. */

@@ -32,6 +32,7 @@ static struct run_record record(void)
                              .cells = 3000000000,
                              .points_deleted = 3,
                              .points_flowed_out = 5,
+                             .density_change = 0.002,
                              .steps = 42,
                              .t_end = 0.1,
                              .dt_min = 1e-5,
@@ -62,7 +63,7 @@ START_TEST(summary_holds_what_it_promises)
                                      "cells",   "points_solid", "points_fluid",    "points_strayed", "steps",
                                      "t_end",   "dt",           "wall_s",          "cpu_s",          "peak_rss_bytes",
                                      "stages",  "left_out",     "pressure_solver", "volume_defect",  "ledger",
-                                     "metrics", "status"};
+                                     "metrics", "status",       "density_change"};
   struct fake_run          r;
   const struct run_record  rec = record();
   char                     path[LONGEST_PATH];

@@ -104,7 +104,7 @@ static void average_linear(const char *scene)
     memcpy(w->gradP_w + p * dim, slope, (size_t)dim * sizeof *slope);
     w->volume_w[p] *= 1 + 0.3 * sin(40 * w->x_w[p * dim]); /* points of different weight */
   }
-  twopoint_average(run.sim, w, w->P_w, w->gradP_w);
+  twopoint_average(run.sim, w, w->P_w, w->gradP_w, true);
   for (long p = 0; p < w->points->n; p++) {
     ck_assert_double_eq_tol(w->P_w[p], linear(w->x_w + p * dim, dim), 1e-12);
     for (int d = 0; d < dim; d++) ck_assert_double_eq_tol(w->gradP_w[p * dim + d], slope[d], 1e-11);
@@ -128,7 +128,7 @@ START_TEST(average_removes_checkerboard)
   find_porosity(&run);
   for (long p = 0; p < w->points->n; p++)
     w->P_w[p] = ((long)floor(w->x_w[2 * p] / 0.05) + (long)floor(w->x_w[2 * p + 1] / 0.05)) % 2 ? 1 : -1;
-  twopoint_average(run.sim, w, w->P_w, w->gradP_w);
+  twopoint_average(run.sim, w, w->P_w, w->gradP_w, true);
   for (long p = 0; p < w->points->n; p++) ck_assert_double_lt(fabs(w->P_w[p]), 0.12);
   water_close(&run);
 }
