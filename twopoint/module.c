@@ -60,7 +60,9 @@ static bool no_increment(const struct scene *sc) { return !increment(sc); }
 static bool increment_alone(const struct scene *sc) { return no_increment(sc) && !printed(sc); }
 static bool averaging(const struct scene *sc) { return params_of(sc)->averaging_interval > 0 && !printed(sc); }
 static bool surface(const struct scene *sc) { return params_of(sc)->surface_fill > 0; }
-static bool shifting(const struct scene *sc) { return params_of(sc)->shifting > 0; }
+static bool increment_still(const struct scene *sc) { return increment(sc) && !(params_of(sc)->shifting > 0); }
+static bool increment_shift(const struct scene *sc) { return increment(sc) && params_of(sc)->shifting > 0; }
+static bool shift_alone(const struct scene *sc) { return !increment(sc) && params_of(sc)->shifting > 0; }
 
 #define TO_NODES "x_w vel_w mass_w volume_w P_w averaged_w? shear_w? water_fill_nc"
 #define AT_NODES "push_w water_mass_nc water_mom_nc water_force_nc water_vel_nc"
@@ -126,10 +128,14 @@ static const struct stage stages[] = {
     {"twopoint.gather_water", SLOT_fluid_points, "x_w volume_w porosity_w dlnJ_w",
      "water_volume_nc water_pores_nc? average_nc", "twopoint 7", "only with averages of the increment", increment,
      twopoint_gather_water, NULL},
-    {"twopoint.update_pressure", SLOT_fluid_points, STATE_OF " average_nc water_volume_nc", "dlnJ_w J_w P_w volume_w",
-     "twopoint 6", "only with averages of the increment", increment, twopoint_update_pressure, twopoint_wave_limit},
-    {"twopoint.update_pressure_alone", SLOT_fluid_points, STATE_OF, "J_w P_w volume_w", "twopoint 6",
+    {"twopoint.update_pressure", SLOT_fluid_points, STATE_OF, "J_w P_w volume_w", "twopoint 6",
      "only without averages of the increment", increment_alone, twopoint_update_pressure, twopoint_wave_limit},
+    {"twopoint.average_and_update", SLOT_fluid_points, STATE_OF " x_w average_nc water_volume_nc",
+     "dlnJ_w J_w P_w volume_w", "twopoint 7", "only with averages of the increment, without shifting", increment_still,
+     twopoint_average_and_update, twopoint_wave_limit},
+    {"twopoint.average_update_and_shift", SLOT_fluid_points, STATE_OF " x_w average_nc water_volume_nc water_room_nc",
+     "dlnJ_w J_w P_w volume_w excess_nc slope_w x_w", "twopoint 8", "only with averages of the increment and shifting",
+     increment_shift, twopoint_average_and_update, twopoint_wave_limit},
     {"twopoint.update_pressure_printed", SLOT_fluid_points, STATE_OF " x_w P_w volume_w solid_dlnJ_w?",
      "weight_nc average_nc averaged_w J_w P_w volume_w", "twopoint 14", "only as printed", printed,
      twopoint_update_pressure_printed, twopoint_wave_limit},
@@ -141,7 +147,7 @@ static const struct stage stages[] = {
      "weight_nc average_nc P_w gradP_w J_w volume_w", "twopoint 7", "only with an averaging interval", averaging,
      twopoint_average_pressure, NULL},
     {"twopoint.shift_points", SLOT_fluid_points, "x_w water_volume_nc water_room_nc", "excess_nc slope_w x_w",
-     "twopoint 8", "only with shifting", shifting, twopoint_shift_points, NULL},
+     "twopoint 8", "only with shifting, without averages of the increment", shift_alone, twopoint_shift_points, NULL},
 };
 
 static enum status count(const struct scene *scene, long n[], int groups[])

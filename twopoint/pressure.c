@@ -87,12 +87,15 @@ enum status twopoint_strain_water(struct sim *sim, double dt)
   return OK;
 }
 
+/* exp(a), by its series where that is exact to round-off */
+static double growth(double a) { return fabs(a) < 1e-4 ? 1 + a * (1 + a / 2 * (1 + a / 3)) : exp(a); }
+
 /* J and P at the end of the step, and the volume that goes with them */
 static void compress(const struct sim *sim, struct twopoint *w, long begin, long end)
 {
   double largest = 1 + w->params->max_expansion;
   for (long p = begin; p < end; p++) {
-    w->J_w[p] = fmin(largest, w->J_w[p] * exp(w->dlnJ_w[p]));
+    w->J_w[p] = fmin(largest, w->J_w[p] * growth(w->dlnJ_w[p]));
     w->volume_w[p] = w->mass_w[p] * w->J_w[p] / (w->rho0 * w->porosity_w[p]);
   }
   pressure_of_volume(sim, w, begin, end);
@@ -101,14 +104,27 @@ static void compress(const struct sim *sim, struct twopoint *w, long begin, long
 enum status twopoint_update_pressure(struct sim *sim, double dt)
 {
   (void)dt;
+  struct twopoint *w = twopoint_of(sim);
+  PARALLEL_FOR
+  for (long r = 0; r < w->points->n_runs; r++) compress(sim, w, w->points->start[r], w->points->start[r + 1]);
+  return OK;
+}
+
+/* the same with the averaged increment; the slope down which points shift comes in the same pass */
+enum status twopoint_average_and_update(struct sim *sim, double dt)
+{
+  (void)dt;
   struct twopoint   *w = twopoint_of(sim);
-  bool               average = w->params->average_increment;
-  struct gather_args args = {.n = 1, .x = w->x_w, .node = {w->average_nc}, .value = {w->dlnJ_w}};
-  if (average) twopoint_finish_average(sim, w, &w->kernel_grid, w->water_volume_nc);
+  struct gather_args args = {.n = 1, .x = w->x_w, .node = {w->average_nc, w->excess_nc}};
+  args.value[0] = w->dlnJ_w;
+  args.gradient[1] = w->slope_w;
+  twopoint_finish_average(sim, w, &w->kernel_grid, w->water_volume_nc);
+  if (w->params->shifting > 0 && twopoint_find_excess(sim, w)) args.n = 2;
   FOR_RUNS_READING(w->points, run, group)
   {
-    if (average) w->kernels->gather(&w->kernel_grid, &run, &args);
+    w->kernels->gather(&w->kernel_grid, &run, &args);
     compress(sim, w, run.begin, run.end);
+    if (args.n == 2) twopoint_shift_run(sim, w, run.begin, run.end);
   }
   return OK;
 }

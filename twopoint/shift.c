@@ -12,7 +12,7 @@ static const double longest = 0.02; /* h, of one correction */
 static const double tolerated = 1e-3;
 
 /* e = max(0, V/R - 1) at nodes; whether there is any */
-static bool find_excess(struct sim *sim, struct twopoint *w)
+bool twopoint_find_excess(struct sim *sim, struct twopoint *w)
 {
   struct box all = grid_all(&sim->grid);
   int        any = 0;
@@ -32,25 +32,32 @@ static bool find_excess(struct sim *sim, struct twopoint *w)
 /* -strength h2 sum e grad w, at most `longest`; no point leaves the grid by it */
 static void shift(const struct grid *g, struct twopoint *w, long p)
 {
-  double       *x = w->x_w + p * g->dim, to[3], square = 0, factor = -w->params->shifting * g->h * g->h;
-  const double *slope = w->slope_w + p * g->dim;
+  double       *x = w->x_w + p * g->dim, square = 0, factor = -w->params->shifting * g->h * g->h;
+  const double *slope = w->slope_w + p * g->dim, limit = longest * g->h;
   for (int d = 0; d < g->dim; d++) square += slope[d] * slope[d];
-  if (square == 0) return;
-  factor = fmax(factor, -longest * g->h / sqrt(square));
-  for (int d = 0; d < g->dim; d++) to[d] = x[d] + factor * slope[d];
-  for (int d = 0; d < g->dim && points_inside(g, to); d++) x[d] = to[d];
+  if (square * factor * factor > limit * limit) factor = -limit / sqrt(square);
+  for (int d = 0; d < g->dim; d++) {
+    double to = x[d] + factor * slope[d];
+    if (to > g->min[d] && to < g->min[d] + g->n[d] * g->h) x[d] = to;
+  }
 }
 
+void twopoint_shift_run(const struct sim *sim, struct twopoint *w, long begin, long end)
+{
+  for (long p = begin; p < end; p++) shift(&sim->grid, w, p);
+}
+
+/* alone: where the increment is averaged the slope comes with it, and points move in that stage */
 enum status twopoint_shift_points(struct sim *sim, double dt)
 {
   (void)dt;
   struct twopoint   *w = twopoint_of(sim);
   struct gather_args args = {.n = 1, .x = w->x_w, .node = {w->excess_nc}, .gradient = {w->slope_w}};
-  if (!find_excess(sim, w)) return OK;
+  if (!twopoint_find_excess(sim, w)) return OK;
   FOR_RUNS_READING(w->points, run, group)
   {
     w->kernels->gather(&w->kernel_grid, &run, &args);
-    for (long p = run.begin; p < run.end; p++) shift(&sim->grid, w, p);
+    twopoint_shift_run(sim, w, run.begin, run.end);
   }
   return OK;
 }

@@ -79,6 +79,7 @@ enum status twopoint_strain_water(struct sim *sim, double dt);
 enum status twopoint_nodes_to_points(struct sim *sim, double dt);
 enum status twopoint_gather_water(struct sim *sim, double dt);
 enum status twopoint_update_pressure(struct sim *sim, double dt);
+enum status twopoint_average_and_update(struct sim *sim, double dt);
 enum status twopoint_average_pressure(struct sim *sim, double dt);
 enum status twopoint_shift_points(struct sim *sim, double dt);
 enum status twopoint_find_surface(struct sim *sim, double dt);
@@ -108,6 +109,9 @@ void twopoint_volume_of_pressure(const struct sim *sim, struct twopoint *w);
 void twopoint_average(struct sim *sim, struct twopoint *w, double *q, double *gradient, bool pressure);
 /** What was gathered in average_nc becomes a mean: weight [size] m3. */
 void twopoint_finish_average(struct sim *sim, struct twopoint *w, const struct kernel_grid *kg, const double *weight);
+/** Excess of volume at nodes; whether there is any. Then, with slope_w gathered, points of a run go down it. */
+bool twopoint_find_excess(struct sim *sim, struct twopoint *w);
+void twopoint_shift_run(const struct sim *sim, struct twopoint *w, long begin, long end);
 /** Fastest point. ERR_DIVERGED if it has no finite velocity. */
 enum status twopoint_find_speed(struct sim *sim, struct twopoint *w) MUST_CHECK;
 /** Adds mass, momentum and energy of point p. */

@@ -37,7 +37,7 @@ static void strain(struct water_run *run, double dt)
   if (run->water->coupling) water_ok(twopoint_strain_water(run->sim, dt));
   water_ok(twopoint_nodes_to_points(run->sim, dt));
   water_ok(twopoint_gather_water(run->sim, dt));
-  water_ok(twopoint_update_pressure(run->sim, dt));
+  water_ok(twopoint_average_and_update(run->sim, dt));
   water_ok(twopoint_average_pressure(run->sim, dt)); /* step 0 is averaged */
 }
 
