@@ -44,12 +44,8 @@ struct twopoint {
     double              put_back, deleted, flowed_out; /* points that left the grid, since the start */
     double              mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
     double              momentum_out[3];               /* kg m/s; these two also lost when points were put back */
-    struct wall_numbers wall[SIDES + MAX_OBSTACLES];   /* what obstacles did to the water */
-    double              speed;                         /* m/s, fastest point of the last step */
-    double              put_back, deleted, flowed_out; /* points that left the grid, since the start */
-    double              mass_out, energy_out;          /* kg, J: of those deleted and flowed out, since the start */
-    double              momentum_out[3];               /* kg m/s; these two also lost when points were put back */
     double              density_change;                /* largest |rho_0/rho - 1| of all points, since the start */
+    struct wall_numbers wall[SIDES + MAX_OBSTACLES];   /* what obstacles did to the water */
   } now;
 };
 
