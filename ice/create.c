@@ -365,27 +365,28 @@ enum status ice_create(struct sim *sim, void *state)
   if (ice->advects) TRY(plic_create(&sim->grid, ice->pore_cc, &ice->plic));
   for (long f = 0; f < faces; f++) ice->one[f] = 1;
   ice->n_fluids = sim->scene->n_fluids;
-  ice->several = ice->n_fluids > 1;
+  ice->several = ice->n_fluids > 1 && !ice->params->shocks;
   if (ice->several) TRY(NEW(&ice->only, sim->grid.size));
-  ice->filling_cc = ice->several ? ice->mixture_cc : ice->rho_cc;
+  ice->filling_cc = ice->n_fluids > 1 ? ice->mixture_cc : ice->rho_cc;
   ice->porosity_cc = c ? c->porosity_cc : ice->one;
   ice->porosity_fc = c ? c->porosity_fc : ice->one;
   ice->open_cc = ice->open_fc = ice->one;
   TRY(obstacles_create(sim, ice));
   if (ice->T_cc) TRY(ice_heat_create(sim, ice));
-  TRY(ice->several ? ice_fill_several(sim, ice) : fill_cells(sim, ice));
+  TRY(ice->n_fluids > 1 ? ice_fill_several(sim, ice) : fill_cells(sim, ice));
   if (c) mark_extent(sim);
   if (c) mark_reach(sim);
   if (c) TRY(coupling_fill_cells(sim, 0));
   ice_classify_faces(sim, ice);
-  TRY(ice->several ? start_several(sim, ice) : start_one(sim, ice));
+  if (ice->n_fluids == 1) TRY(start_one(sim, ice));
+  if (ice->several) TRY(start_several(sim, ice));
+  if (ice->params->shocks) TRY(shock_create(sim, ice));
   if (sim->scene->fluid.prescribed) {
     ice_create_prescribed(sim, ice);
     return OK;
   }
   start_fluxes(sim, ice);
   if (ice->advects && ice->skeleton) TRY(ice_resist_faces(sim, 0)); /* the first step's limit counts on drag */
-  if (ice->params->shocks) TRY(shock_create(sim, ice));
   if (ice->forecast_cc) ice_start_forecast(sim, ice);
   if (ice->advects) ice->now.change = ice_fastest_change(sim, ice, 0);
   if (ice->fill) ice_open_rooms(sim, ice);

@@ -23,7 +23,7 @@ double ice_face_density(const struct grid *g, const struct ice *ice, int axis, l
   long low = high - g->stride[axis];
   bool l = ice->wet_cc[low] > 0, h = ice->wet_cc[high] > 0;
   if (!(l && h)) return ice->filling_cc[l ? low : high];
-  if (!ice->several) return 0.5 * (ice->rho_cc[low] + ice->rho_cc[high]);
+  if (!ice->several) return 0.5 * (ice->filling_cc[low] + ice->filling_cc[high]);
   const double *lower = ice->lower_fc + axis * g->size;
   return ice->mixture_cc[low] - lower[low] + lower[high];
 }
@@ -329,6 +329,7 @@ double ice_dt_limit(const struct sim *sim)
   for (int d = 0; d < 3; d++) g2 += gravity[d] * gravity[d];
   if (ice->advects) limit = fmin(limit, time_to_cross(h, ice->now.change, ice->now.drag_rate));
   if (ice->params->shocks) limit = fmin(limit, sqrt(0.5 * h / ice_fastest_change(sim, ice, sim->t)));
+  limit = fmin(limit, ice_sound_dt(sim));
   if (ice->several && g2 > 0) return fmin(limit, 0.25 * sqrt(h / sqrt(g2)));
   return ice->surface && g2 > 0 ? fmin(limit, 0.5 * sqrt(h / sqrt(g2))) : limit;
 }

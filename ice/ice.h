@@ -199,6 +199,8 @@ enum status ice_accelerate_cells(struct sim *sim, double dt);
 enum status ice_update_cells(struct sim *sim, double dt);
 enum status ice_push_solid(struct sim *sim, double dt);
 double      ice_dt_limit(const struct sim *sim);
+/** s in which a wave goes numerics.ice.acoustic_courant cells; INFINITY: the scene does not ask. */
+double ice_sound_dt(const struct sim *sim);
 
 /** Wet cells, masses, pressures and face kinds at the start. */
 enum status ice_create(struct sim *sim, void *state) MUST_CHECK;

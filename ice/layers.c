@@ -49,8 +49,8 @@ enum status ice_fill_several(struct sim *sim, struct ice *ice)
   if (ice->obstacles)
     return FAIL(ERR_INPUT,
                 "obstacles: they stand in one fluid only; leave \"fluids\" out or make them solids of model rigid");
-  if (!ice->advects)
-    return FAIL(ERR_INPUT, "fluids: several fluids need numerics.ice.advection, without numerics.ice.shocks");
+  if (!ice->advects && !ice->params->shocks)
+    return FAIL(ERR_INPUT, "fluids: several fluids need numerics.ice.advection or numerics.ice.shocks; set one true");
   ice->ambient = pressure_at_reference(scene_fluid(sim->scene, ice->n_fluids - 1));
   FOR_BOX_SERIAL(g, cells, c) TRY(fill_cell(sim, ice, c));
   grid_fill_periodic(g, 1, ice->wet_cc);

@@ -32,7 +32,9 @@ static bool several(const struct scene *sc) { return sc->n_fluids > 1 && advects
 static bool separate(const struct scene *sc) { return several(sc) && isfinite(sc->fluid.exchange); }
 static bool together(const struct scene *sc) { return driven(sc) && !separate(sc); }
 static bool share_velocity(const struct scene *sc) { return several(sc) && !separate(sc); }
-static bool alone(const struct scene *sc) { return !several(sc); }
+static bool several_shocks(const struct scene *sc) { return sc->n_fluids > 1 && shocks(sc); }
+static bool one_shocks(const struct scene *sc) { return sc->n_fluids < 2 && shocks(sc); }
+static bool alone(const struct scene *sc) { return !several(sc) && !several_shocks(sc); }
 static bool one_advects(const struct scene *sc) { return advects(sc) && alone(sc); }
 static bool sharp(const struct scene *sc) { return one_advects(sc) || prescribed(sc); }
 static bool carries_cold(const struct scene *sc) { return one_advects(sc) && !warm(sc); }
@@ -75,8 +77,11 @@ static const struct stage stages[] = {
      "only with several fluids", several, ice_mix_fluids, NULL},
     {"ice.find_surface", SLOT_volume_fractions, "rho_cc mass_cc", "alpha_cc wet_cc P_cc defect_cc vel_start_cc", "4.10",
      "only with numerics.ice.advection and one fluid", sharp, ice_find_surface, NULL},
-    {"ice.find_sound", SLOT_volume_fractions, "P_cc T_cc?", "sound_cc", "4.13", "only with numerics.ice.shocks", shocks,
-     ice_find_sound, NULL},
+    {"ice.find_sound", SLOT_volume_fractions, "P_cc T_cc?", "sound_cc slack_cc", "4.13",
+     "only with numerics.ice.shocks and one fluid", one_shocks, ice_find_sound, NULL},
+    {"ice.mix_shock", SLOT_volume_fractions, "P_cc T_cc? mass_cc wet_cc vel_cc",
+     "rho_cc alpha_cc mixture_cc yield_cc sound_cc slack_cc defect_cc liquid_fc", "4.13",
+     "only with numerics.ice.shocks and several fluids", several_shocks, ice_mix_shock, NULL},
     {"ice.measure_eddies", SLOT_volume_fractions, "wet_cc rho_cc vel_cc", "mu_cc", "4.11",
      "only with numerics.ice.smagorinsky", turbulent, ice_measure_eddies, NULL},
     {"ice.diffuse_momentum", SLOT_volume_fractions, "wet_cc mass_cc vel_cc", "viscous_cc vel_cc", "4.11",
@@ -85,7 +90,7 @@ static const struct stage stages[] = {
      "only without numerics.ice.shocks", calm, ice_predict_faces, ice_dt_limit},
     {"ice.predict_solid", SLOT_predict, "mass_nc force_nc vel_nc solid_nc room_nc gradP_fc", "vel_star_nc s_old_fc",
      "4.2", "only when a solid moves", moving, ice_predict_solid, NULL},
-    {"ice.predict_shock", SLOT_predict, "P_cc vel_cc rho_cc sound_cc",
+    {"ice.predict_shock", SLOT_predict, "P_cc vel_cc rho_cc sound_cc slack_cc",
      "gradP_fc u_old_fc s_old_fc flux_fc water_fc press_fc", "4.13", "only with numerics.ice.shocks", shocks,
      ice_predict_shock, ice_shock_dt},
     {"ice.resist_faces", SLOT_drag, "u_old_fc s_old_fc porosity_fc fill_fc medium_porosity_fc", "drag_fc", "2.2",
@@ -131,17 +136,19 @@ static const struct stage stages[] = {
     {"ice.carry_prescribed", SLOT_cells, "water_fc alpha_cc rho_cc mass_cc",
      "pore_cc carried_fc liquid_fc alpha_cc mass_cc", "4.16", "only with fluid.motion prescribed", prescribed,
      ice_carry_prescribed, ice_prescribed_dt},
-    {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc", "press_fc vel_cc", "4.13",
-     "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
-    {"ice.push_shock_with_energy", SLOT_cells, "press_fc dP_cc carried_fc rho_cc mass_cc vel_cc T_cc",
-     "press_fc vel_cc energy_cc", "4.13", "only with numerics.ice.shocks and energy", warm_shocks, ice_push_shock,
-     NULL},
-    {"ice.carry_shock", SLOT_cells, "carried_fc rho_cc mass_cc vel_cc",
-     "room_cc dense_cc flat_cc mass_fc momentum_fc mass_cc vel_cc rho_cc P_cc", "4.13",
+    {"ice.push_shock", SLOT_cells, "press_fc dP_cc carried_fc rho_cc yield_cc? mass_cc vel_cc", "press_fc vel_cc",
+     "4.13", "only with numerics.ice.shocks, no energy", cold_shocks, ice_push_shock, NULL},
+    {"ice.push_shock_with_energy", SLOT_cells, "press_fc dP_cc carried_fc rho_cc yield_cc? mass_cc vel_cc T_cc",
+     "press_fc vel_cc energy_cc inner_cc", "4.13", "only with numerics.ice.shocks and energy", warm_shocks,
+     ice_push_shock, NULL},
+    {"ice.carry_shock", SLOT_cells, "carried_fc rho_cc yield_cc? liquid_fc? mass_cc vel_cc",
+     "room_cc part_cc dense_cc flat_cc volume_fc mass_fc momentum_fc mass_cc vel_cc rho_cc P_cc", "4.13",
      "only with numerics.ice.shocks, no energy", cold_shocks, ice_carry_shock, NULL},
-    {"ice.carry_shock_with_energy", SLOT_cells, "carried_fc rho_cc mass_cc vel_cc energy_cc T_cc",
-     "room_cc dense_cc inner_cc flat_cc mass_fc momentum_fc energy_fc mass_cc vel_cc rho_cc T_cc P_cc", "4.13",
-     "only with numerics.ice.shocks and energy", warm_shocks, ice_carry_shock, NULL},
+    {"ice.carry_shock_with_energy", SLOT_cells,
+     "carried_fc rho_cc yield_cc? liquid_fc? mass_cc vel_cc energy_cc inner_cc T_cc",
+     "room_cc part_cc dense_cc inner_cc flat_cc volume_fc mass_fc momentum_fc heat_fc energy_fc mass_cc vel_cc rho_cc "
+     "T_cc P_cc",
+     "4.13", "only with numerics.ice.shocks and energy", warm_shocks, ice_carry_shock, NULL},
     {"ice.advect_fluids", SLOT_cells, "carried_fc trend_fc vel_start_cc alpha_cc rho_cc mixture_cc mass_cc vel_cc",
      "pore_cc liquid_fc passed_fc through_cc alpha_cc mass_cc vel_cc forecast_cc", "4.15",
      "only with several fluids with one velocity", share_velocity, ice_advect, NULL},
@@ -158,7 +165,7 @@ static const struct param params[] = {
     {"shocks", PARAM_FLAG, offsetof(struct ice_params, shocks), "-", 0, 0, "false", NULL,
      "a fluid at any speed, to shocks, that fills the grid: total energy is conserved where energy is solved"},
     {"acoustic_courant", PARAM_NUMBER, offsetof(struct ice_params, acoustic_courant), "-", 0, 1e6, "0", NULL,
-     "with shocks: cells that a wave may go per step; 0: the step does not know of sound"},
+     "cells that a wave of sound may go per step; 0: the step does not know of sound"},
     {"shear", PARAM_FLAG, offsetof(struct ice_params, shear), "-", 0, 0, "true", NULL,
      "the moving liquid has a viscous stress; without, drag is all that viscosity does, as in Darcy's law"},
     {"memory", PARAM_NUMBER, offsetof(struct ice_params, memory), "-", 0, 1, "0.99", NULL,

@@ -76,7 +76,7 @@ static double storage_of(const struct sim *sim, const struct ice *ice, long c, d
   const struct fluid *fluid = &sim->scene->fluid;
   double              kappa;
   if (ice->sound_cc)
-    kappa = 1 / (ice->rho_cc[c] * ice->sound_cc[c] * ice->sound_cc[c]);
+    kappa = 1 / (ice->filling_cc[c] * ice->sound_cc[c] * ice->sound_cc[c]);
   else if (ice->several)
     kappa = ice->kappa_cc[c];
   else

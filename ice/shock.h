@@ -18,20 +18,32 @@ static inline double shock_jump(const struct sim *sim, const struct ice *ice, in
  * that the face has their velocity. */
 double shock_jump_velocity(const struct sim *sim, const struct ice *ice, int axis, long f, int d);
 
-/** J/kg of a cell, from its density and temperature; 0 where energy is not solved. */
-double shock_internal_energy(const struct sim *sim, const struct ice *ice, long c, double rho);
-/** m/s: at constant entropy where energy is solved, else at constant temperature. */
+enum { MAX_SHOCK_FLUIDS = 8 };
+
+/** J/kg of fluid k of a cell, from its density and temperature. */
+double shock_internal_energy(const struct sim *sim, const struct ice *ice, int k, long c);
+/** m/s in a cell, of several fluids together: at constant entropy where energy is solved, else at constant temperature.
+ */
 double shock_sound(const struct sim *sim, const struct ice *ice, long c);
+/** Share of a cell that fluid k fills; and of a change of the cell's volume that it takes, so that pressures stay
+ * equal.
+ */
+double shock_share(const struct grid *g, const struct ice *ice, int k, long c);
+double shock_yield(const struct grid *g, const struct ice *ice, int k, long c);
 /** kg through a face in dt with the density of both cells: what weight is counted to work on before the carried mass is
  * known. */
 double shock_carried_weight(const struct sim *sim, const struct ice *ice, int axis, long f, double dt);
-/** Densities and pressures of all cells from their masses and temperatures. */
-void shock_settle(struct sim *sim, struct ice *ice);
-/** Fails where the scene is none that this can do. */
+/** Volumes of the first fluid that pass the faces of an axis, liquid_fc: what its planes cut off. */
+void shock_cut(struct sim *sim, struct ice *ice, int axis, double dt);
+/** Densities, temperatures and the pressure of all cells from masses and internal energies; several fluids share the
+ * room so that their pressures are equal. */
+enum status shock_settle(struct sim *sim, struct ice *ice) MUST_CHECK;
+/** Fails where the scene is none that this can do; what several fluids hold. */
 enum status shock_create(struct sim *sim, struct ice *ice) MUST_CHECK;
 /** Adds the energy of compression to the ledger. */
 void shock_measure(const struct sim *sim, struct ledger *l);
 
+enum status ice_mix_shock(struct sim *sim, double dt);
 enum status ice_find_sound(struct sim *sim, double dt);
 enum status ice_predict_shock(struct sim *sim, double dt);
 enum status ice_push_shock(struct sim *sim, double dt);

@@ -7,49 +7,8 @@
 
 #include <math.h>
 
-double shock_sound(const struct sim *sim, const struct ice *ice, long c)
-{
-  const struct fluid *fluid = &sim->scene->fluid;
-  double              sound;
-  if (ice->T_cc)
-    eos_adiabatic_sound_speed(fluid->eos, fluid->eos_params, 1, &ice->P_cc[c], &ice->T_cc[c], &sound);
-  else
-    fluid->eos->sound_speed(fluid->eos_params, 1, &ice->P_cc[c], NULL, &sound);
-  return sound;
-}
-
-double shock_internal_energy(const struct sim *sim, const struct ice *ice, long c, double rho)
-{
-  double e = 0;
-  if (ice->T_cc) sim->scene->fluid.eos->energy(sim->scene->fluid.eos_params, 1, &rho, &ice->T_cc[c], &e);
-  return e;
-}
-
-void shock_settle(struct sim *sim, struct ice *ice)
-{
-  const struct fluid *fluid = &sim->scene->fluid;
-  struct box          cells = grid_cells(&sim->grid);
-  double              V = grid_cell_volume(&sim->grid);
-  FOR_BOX(&sim->grid, cells, c)
-  {
-    if (!(ice->wet_cc[c] > 0)) continue;
-    ice->rho_cc[c] = ice->mass_cc[c] / V;
-    fluid->eos->pressure(fluid->eos_params, 1, &ice->rho_cc[c], ice_temperature(ice, c), &ice->P_cc[c]);
-  }
-}
-
-enum status ice_find_sound(struct sim *sim, double dt)
-{
-  (void)dt;
-  struct ice *ice = ice_of(sim);
-  struct box  cells = grid_cells(&sim->grid);
-  FOR_BOX(&sim->grid, cells, c) ice->sound_cc[c] = ice->wet_cc[c] > 0 ? shock_sound(sim, ice, c) : 0;
-  grid_fill_periodic(&sim->grid, 1, ice->sound_cc);
-  if (ice->T_cc) grid_fill_periodic(&sim->grid, 1, ice->T_cc);
-  return OK;
-}
-
-/* pressures of the step at the faces: what they started with and theta times the change, weighted as M(54) */
+/* pressures of the step at the faces: what they started with and theta times the change, weighted by impedances, which
+ * is M(54) where both sides have one speed of sound */
 static void press_faces(struct sim *sim, struct ice *ice, int axis)
 {
   const struct grid *g = &sim->grid;
@@ -59,7 +18,7 @@ static void press_faces(struct sim *sim, struct ice *ice, int axis)
   {
     long           low = f - g->stride[axis], q = axis * g->size + f;
     enum face_kind kind = ice->kind[q];
-    double         l = ice->rho_cc[low], h = ice->rho_cc[f];
+    double         l = ice->filling_cc[low] * ice->sound_cc[low], h = ice->filling_cc[f] * ice->sound_cc[f];
     if (kind == FACE_INNER)
       ice->press_fc[q] += theta * (h * ice->dP_cc[low] + l * ice->dP_cc[f]) / (l + h);
     else if (kind != FACE_PRESSURE)
@@ -85,22 +44,38 @@ static double square(const double *v, int dim)
   return sum;
 }
 
-/* velocity and total energy of one cell; the pressures of both faces of an axis do the work of its carried fluxes */
+/* What the internal energy of a cell gains beyond that of its fluids goes to them as they give way. */
+static void warm_fluids(const struct sim *sim, struct ice *ice, long c)
+{
+  const struct grid *g = &sim->grid;
+  double gained = ice->energy_cc[c] - 0.5 * ice_cell_mass(g, ice, c) * square(&ice->vel_cc[c * g->dim], g->dim);
+  for (int k = 0; k < ice->n_fluids; k++) gained -= ice->mass_cc[k * g->size + c] * ice->inner_cc[k * g->size + c];
+  for (int k = 0; k < ice->n_fluids; k++) {
+    long own = k * g->size + c;
+    if (ice->mass_cc[own] > 0) ice->inner_cc[own] += shock_yield(g, ice, k, c) * gained / ice->mass_cc[own];
+  }
+}
+
+/* velocity and energies of one cell; the pressures of both faces of an axis do the work of its carried fluxes */
 static void push_cell(const struct sim *sim, struct ice *ice, long c, const double *gravity, double dt)
 {
   const struct grid *g = &sim->grid;
-  double             m = ice->mass_cc[c], area = ice_face_area(g), *v = &ice->vel_cc[c * g->dim], work = 0;
-  if (ice->T_cc) {
-    work = m * (shock_internal_energy(sim, ice, c, ice->rho_cc[c]) + 0.5 * square(v, g->dim));
-    work += work_of_weight(sim, ice, c, gravity, dt);
+  double             m = ice_cell_mass(g, ice, c), area = ice_face_area(g), *v = &ice->vel_cc[c * g->dim], work = 0;
+  for (int k = 0; k < ice->n_fluids && ice->T_cc; k++) {
+    long own = k * g->size + c;
+    ice->inner_cc[own] = ice->mass_cc[own] > 0 ? shock_internal_energy(sim, ice, k, c) : 0;
+    work += ice->mass_cc[own] * ice->inner_cc[own];
   }
+  if (ice->T_cc) work += 0.5 * m * square(v, g->dim) + work_of_weight(sim, ice, c, gravity, dt);
   for (int d = 0; d < g->dim; d++) {
     long   low = d * g->size + c, high = low + g->stride[d];
     double flux = ice->press_fc[low] * ice->carried_fc[low] - ice->press_fc[high] * ice->carried_fc[high];
     v[d] += dt * (area * (ice->press_fc[low] - ice->press_fc[high]) / m + gravity[d]);
     work += dt * area * flux;
   }
-  if (ice->T_cc) ice->energy_cc[c] = work;
+  if (!ice->T_cc) return;
+  ice->energy_cc[c] = work;
+  warm_fluids(sim, ice, c);
 }
 
 /* fastest fluid, and how fast cells are squeezed or swell, 1/s */
@@ -153,34 +128,66 @@ static enum status check_cell(const struct sim *sim, const struct ice *ice, long
   return OK;
 }
 
-enum status shock_create(struct sim *sim, struct ice *ice)
+static enum status check_scene(const struct scene *scene)
 {
-  const struct scene *scene = sim->scene;
-  struct box          cells = grid_cells(&sim->grid);
   if (scene->n_solids > 0)
     return FAIL(ERR_INPUT, "numerics.ice.shocks: a fluid at any speed does not meet solids yet; remove solids, or set "
                            "numerics.ice.shocks false");
-  if (scene->fluid.viscosity > 0)
-    return FAIL(ERR_INPUT,
-                "numerics.ice.shocks: the fluid at any speed has no viscosity; set fluid.viscosity to 0, "
-                "not %g",
-                scene->fluid.viscosity);
-  if (isinf(scene->fluid.bulk_modulus))
-    return FAIL(ERR_INPUT, "numerics.ice.shocks: no sound in an incompressible fluid; give fluid.bulk_modulus");
-  FOR_BOX_SERIAL(&sim->grid, cells, c) TRY(check_cell(sim, ice, c));
+  if (scene->n_fluids > MAX_SHOCK_FLUIDS)
+    return FAIL(ERR_INPUT, "numerics.ice.shocks: %d fluids are too many; at most %d", scene->n_fluids,
+                MAX_SHOCK_FLUIDS);
+  for (int k = 0; k < scene->n_fluids; k++) {
+    const struct fluid *fluid = scene_fluid(scene, k);
+    if (fluid->viscosity > 0)
+      return FAIL(ERR_INPUT,
+                  "numerics.ice.shocks: a fluid at any speed has no viscosity; set that of fluid %d to 0, not %g",
+                  k + 1, fluid->viscosity);
+    if (isinf(fluid->bulk_modulus))
+      return FAIL(ERR_INPUT,
+                  "numerics.ice.shocks: no sound in an incompressible fluid; give the bulk_modulus of fluid "
+                  "%d",
+                  k + 1);
+  }
   return OK;
+}
+
+/* masses of several fluids from their shares, the pressure and the temperature, which is the same for all */
+static void weigh_fluids(const struct sim *sim, struct ice *ice, long c)
+{
+  const struct grid *g = &sim->grid;
+  double             x[3], mass = 0, momentum[3] = {0};
+  grid_centre(g, c, x);
+  for (int k = 0; k < ice->n_fluids; k++) {
+    const struct fluid *fluid = scene_fluid(sim->scene, k);
+    long                own = k * g->size + c;
+    if (ice->T_cc) ice->T_cc[own] = ice->T_cc[c];
+    fluid->eos->density(fluid->eos_params, 1, &ice->P_cc[c], ice_temperature(ice, own), &ice->rho_cc[own]);
+    ice->mass_cc[own] = ice->alpha_cc[own] * ice->rho_cc[own] * grid_cell_volume(g);
+    mass += ice->mass_cc[own];
+    for (int d = 0; d < g->dim; d++) momentum[d] += ice->mass_cc[own] * function_value(&fluid->velocity[d], x, 0);
+  }
+  for (int d = 0; d < g->dim; d++) ice->vel_cc[c * g->dim + d] = momentum[d] / mass;
+  ice->mixture_cc[c] = mass / grid_cell_volume(g);
+}
+
+enum status shock_create(struct sim *sim, struct ice *ice)
+{
+  struct box cells = grid_cells(&sim->grid);
+  TRY(check_scene(sim->scene));
+  FOR_BOX_SERIAL(&sim->grid, cells, c)
+  {
+    TRY(check_cell(sim, ice, c));
+    if (ice->n_fluids > 1) weigh_fluids(sim, ice, c);
+  }
+  return ice->n_fluids > 1 ? plic_create(&sim->grid, ice->room_cc, &ice->plic) : OK;
 }
 
 void shock_measure(const struct sim *sim, struct ledger *l)
 {
-  const struct ice   *ice = ice_of(sim);
-  const struct fluid *fluid = &sim->scene->fluid;
-  struct box          cells = grid_cells(&sim->grid);
-  double              V = grid_cell_volume(&sim->grid);
-  FOR_BOX_SERIAL(&sim->grid, cells, c)
-  {
-    double rho = ice->mass_cc[c] / V, e;
-    fluid->eos->energy(fluid->eos_params, 1, &rho, ice_temperature(ice, c), &e);
-    l->v[LEDGER_compression] += ice->mass_cc[c] * e;
-  }
+  const struct ice  *ice = ice_of(sim);
+  const struct grid *g = &sim->grid;
+  struct box         cells = grid_cells(g);
+  for (int k = 0; k < ice->n_fluids; k++) FOR_BOX_SERIAL(g, cells, c)
+  if (ice->mass_cc[k * g->size + c] > 0)
+    l->v[LEDGER_compression] += ice->mass_cc[k * g->size + c] * shock_internal_energy(sim, ice, k, c);
 }

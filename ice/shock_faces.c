@@ -10,6 +10,8 @@
 static const double stiffening = 1.2;
 /* jumps of velocity resist fully from this Mach number, or jump of pressure over rho c^2, on */
 static const double fast = 0.5;
+/* share of what its pressure can fall by that expansion takes off a face at once */
+static const double most_slack = 0.98;
 
 /* velocity of a wall, 0, or of a side at the middle of a face */
 static double side_velocity(const struct sim *sim, const struct ice *ice, int axis, long f, int d)
@@ -33,6 +35,7 @@ double shock_jump_velocity(const struct sim *sim, const struct ice *ice, int axi
 struct half {
   double rho, c, u, P;
   double du, dP; /* dP beyond the weight of the fluid */
+  double slack;  /* Pa: what the pressure can fall by until the fluid is all but gone */
 };
 
 /* change of pressure across a face beyond what the weight of both halves makes, Pa */
@@ -46,7 +49,8 @@ static double jump_pressure(const struct sim *sim, const struct ice *ice, int ax
 static struct half half_of(const struct sim *sim, const struct ice *ice, int axis, long c, double weight)
 {
   long        high = c + sim->grid.stride[axis];
-  struct half h = {ice->rho_cc[c], ice->sound_cc[c], ice->vel_cc[c * sim->grid.dim + axis], ice->P_cc[c], 0, 0};
+  struct half h = {ice->filling_cc[c], ice->sound_cc[c], ice->vel_cc[c * sim->grid.dim + axis], ice->P_cc[c], 0, 0,
+                   ice->slack_cc[c]};
   h.du = 0.5 *
          shock_limited(shock_jump_velocity(sim, ice, axis, c, axis), shock_jump_velocity(sim, ice, axis, high, axis));
   h.dP = 0.5 * shock_limited(jump_pressure(sim, ice, axis, c, weight), jump_pressure(sim, ice, axis, high, weight));
@@ -58,18 +62,21 @@ struct start {
   double u, P, push;
 };
 
-/* between two cells; courant: dt/h */
-static struct start between(const struct half *l, const struct half *r, double du, double dP, double courant)
+/* between two cells, whose pressures reach the face with the weight of half a cell: waves of the impedances Z, as far
+ * as slopes leave jumps; courant: dt/h */
+static struct start between(const struct half *l, const struct half *r, double du, double weight, double courant)
 {
-  double       both = l->rho + r->rho, faster = fmax(l->c, r->c) * courant, share = fmin(1, 1 / faster);
-  double       closing = stiffening * fmax(0, -du), Zl = l->rho * (l->c + closing), Zr = r->rho * (r->c + closing);
+  double       faster = fmax(l->c, r->c) * courant, share = fmin(1, 1 / faster), closing = stiffening * fmax(0, -du);
+  double       Zl = l->rho * (l->c + closing), Zr = r->rho * (r->c + closing), Z = Zl + Zr;
   double       softer = fmin(l->rho * l->c * l->c, r->rho * r->c * r->c);
+  double       Pl = l->P + 0.5 * weight * l->rho, Pr = r->P - 0.5 * weight * r->rho, dP = Pr - Pl;
   double       mach = fmax(fmax(fabs(l->u) / l->c, fabs(r->u) / r->c), fabs(dP) / softer);
   double       slopes = fmin(1, fmax(0, 2 - 2 * faster)), left_u = du - (l->du + r->du), left_P = dP - (l->dP + r->dP);
+  double       pull = share * fmin(1, mach / fast) * (Zl * Zr / Z) * left_u;
+  double       slack = most_slack * (Zr * (l->slack + l->dP) + Zl * (r->slack - r->dP)) / Z;
   struct start s;
-  s.u = (l->rho * l->u + r->rho * r->u) / both + 0.5 * (l->du - r->du) - share * left_P / (Zl + Zr);
-  s.P = (r->rho * l->P + l->rho * r->P) / both + 0.5 * (l->dP - r->dP) -
-        share * fmin(1, mach / fast) * (Zl * Zr / (Zl + Zr)) * left_u;
+  s.u = (Zl * (l->u + l->du) + Zr * (r->u - r->du)) / Z - share * left_P / Z;
+  s.P = (Zr * (Pl + l->dP) + Zl * (Pr - r->dP)) / Z - fmin(pull, slack);
   s.push = slopes * (l->dP + r->dP) + (1 - slopes) * dP;
   return s;
 }
@@ -92,8 +99,7 @@ static struct start start_face(const struct sim *sim, const struct ice *ice, int
   enum face_kind     kind = ice->kind[q];
   if (kind == FACE_INNER) {
     struct half l = half_of(sim, ice, axis, low, weight), r = half_of(sim, ice, axis, f, weight);
-    return between(&l, &r, shock_jump_velocity(sim, ice, axis, f, axis), jump_pressure(sim, ice, axis, f, weight),
-                   dt / g->h);
+    return between(&l, &r, shock_jump_velocity(sim, ice, axis, f, axis), weight, dt / g->h);
   }
   if (!(ice->wet_cc[c] > 0)) return (struct start){0, 0, 0};
   struct half h = half_of(sim, ice, axis, c, weight);
@@ -128,24 +134,23 @@ enum status ice_predict_shock(struct sim *sim, double dt)
   return OK;
 }
 
-/* the largest of (|u| + c)/h over cells and axes, 1/s */
-static double fastest_wave(const struct sim *sim, const struct ice *ice)
+double ice_sound_dt(const struct sim *sim)
 {
+  const struct ice  *ice = ice_of(sim);
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
-  double             most = 0;
+  double             fastest = 0;
+  if (!(ice->params->acoustic_courant > 0)) return INFINITY;
   FOR_BOX_SERIAL(g, cells, c)
   for (int d = 0; d < g->dim && ice->wet_cc[c] > 0; d++)
-    most = fmax(most, fabs(ice->vel_cc[c * g->dim + d]) + shock_sound(sim, ice, c));
-  return most / g->h;
+    fastest = fmax(fastest, fabs(ice->vel_cc[c * g->dim + d]) + shock_sound(sim, ice, c));
+  return fastest > 0 ? ice->params->acoustic_courant * g->h / fastest : INFINITY;
 }
 
-/* a wave may go acoustic_courant cells; else the fluid half a cell. theory 4.13 */
+/* besides, no cell changes its volume by more than half at the rate of the last step. theory 4.13 */
 double ice_shock_dt(const struct sim *sim)
 {
   const struct ice *ice = ice_of(sim);
   double            limit = ice_dt_limit(sim);
-  if (ice->now.squeeze > 0) limit = fmin(limit, 0.5 / ice->now.squeeze);
-  if (ice->params->acoustic_courant > 0) limit = fmin(limit, ice->params->acoustic_courant / fastest_wave(sim, ice));
-  return limit;
+  return ice->now.squeeze > 0 ? fmin(limit, 0.5 / ice->now.squeeze) : limit;
 }

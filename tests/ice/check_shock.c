@@ -149,7 +149,8 @@ static double difference(const struct scene_run *a, const struct scene_run *b, b
   return most;
 }
 
-/* the order in which the direct solver eliminates cells knows left from right: to its round-off */
+/* the order in which the direct solver eliminates cells, and products that are added without rounding, know left from
+ * right; limiters make some thousand times more of it */
 START_TEST(left_is_right)
 {
   static const struct tube mirrored = {{0.125, 0, 0.1}, {1, 0, 1}, 0.5, 0.2};
@@ -158,7 +159,7 @@ START_TEST(left_is_right)
   open_tube(&mirrored, false, "", NULL, &b);
   run_until(&a, 0.2);
   run_until(&b, 0.2);
-  ck_assert_double_lt(difference(&a, &b, true), 1e-12);
+  ck_assert_double_lt(difference(&a, &b, true), 1e-10);
   scene_close(&a);
   scene_close(&b);
 }
@@ -235,6 +236,74 @@ START_TEST(sound_without_energy)
 }
 END_TEST
 
+/* ---- several fluids ---- */
+
+/* gamma 1.4 up to x = 0.5, gamma 1.2 beyond; the second gas has its reference density at P = 1, T = 1 */
+#define BOTH(dense)                                                                                                    \
+  ", \"region\": {\"box\": {\"min\": [null, null], \"max\": [0.5, null]}}}, \"fluids\": {\"other\": "                  \
+  "{\"density\": " dense                                                                                               \
+  ", \"viscosity\": 0, \"velocity\": [1, 0], \"eos\": {\"law\": \"ideal_gas\", \"reference_pressure\": 1, "            \
+  "\"reference_temperature\": 1, \"heat_capacity\": 5}}}"
+
+static void other_amounts(const struct scene_run *run, double amounts[4])
+{
+  struct ledger l = scene_ledger(run);
+  amounts[0] = l.v[LEDGER_mass_fluid];
+  amounts[1] = l.v[LEDGER_mass_others];
+  amounts[2] = l.v[LEDGER_momentum_x];
+  amounts[3] = energy(run);
+}
+
+/* a contact that is only carried leaves pressure and velocity alone, density 1 beside 0.1 */
+START_TEST(contact_is_carried)
+{
+  struct scene_run run;
+  double           before[4], after[4], off = 0;
+  scene_open("{" ALONG_X ZERO GAS ", \"pressure\": 1, \"temperature\": 1, \"velocity\": [1, 0]" BOTH("0.1")
+                 RING         NUMERICS "}",
+             &run);
+  other_amounts(&run, before);
+  run_until(&run, 1);
+  other_amounts(&run, after);
+  const struct ice *ice = ice_of(run.sim);
+  struct box        cells = grid_cells(&run.sim->grid);
+  FOR_BOX_SERIAL(&run.sim->grid, cells, c)
+  off = fmax(off, fmax(fabs(ice->P_cc[c] - 1), fabs(ice->vel_cc[2 * c] - 1)));
+  ck_assert_double_lt(off, 1e-11);
+  for (int i = 0; i < 4; i++) ck_assert_double_eq_tol(after[i], before[i], 1e-12 * fabs(before[i]));
+  scene_close(&run);
+}
+END_TEST
+
+/* a light gas round which a shock runs, in the plane: every amount is kept, and the bubble is as sharp as before */
+#define BUBBLE                                                                                                         \
+  "{\"grid\": {\"min\": [0, 0], \"max\": [1, 0.5], \"h\": 0.05}" ZERO GAS                                              \
+  ", \"pressure\": \"1+9*step(0.2-x)\", \"temperature\": 1, \"region\": {\"circle\": {\"centre\": [0.5, 0.25], "       \
+  "\"radius\": 0.15}}}, \"fluids\": {\"air\": {\"density\": 5, \"viscosity\": 0, \"eos\": {\"law\": \"ideal_gas\", "   \
+  "\"reference_pressure\": 1, \"reference_temperature\": 1, \"heat_capacity\": 0.5}}}" NUMERICS "}"
+
+START_TEST(bubble_is_hit)
+{
+  struct scene_run run;
+  double           before[4], after[4], mixed = 0;
+  scene_open(BUBBLE, &run);
+  other_amounts(&run, before);
+  run_until(&run, 1);
+  other_amounts(&run, after);
+  for (int i = 0; i < 4; i++)
+    if (i != 2) ck_assert_double_eq_tol(after[i], before[i], 1e-12 * fabs(before[i]));
+  const struct ice *ice = ice_of(run.sim);
+  struct box        cells = grid_cells(&run.sim->grid);
+  FOR_BOX_SERIAL(&run.sim->grid, cells, c)
+  {
+    ck_assert(ice->P_cc[c] > 0 && ice->rho_cc[c] >= 0 && ice->T_cc[c] > 0);
+    mixed += ice->alpha_cc[c] > 0.01 && ice->alpha_cc[c] < 0.99;
+  }
+  ck_assert_double_lt(mixed, 40);
+  scene_close(&run);
+}
+END_TEST
+
 int main(void)
 {
   Suite *suite = suite_create("shock");
@@ -248,6 +317,8 @@ int main(void)
   tcase_add_test(tests, rest);
   tcase_add_test(tests, sound_with_energy);
   tcase_add_test(tests, sound_without_energy);
+  tcase_add_test(tests, contact_is_carried);
+  tcase_add_test(tests, bubble_is_hit);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }
