@@ -115,11 +115,18 @@ enum status ice_push_shock(struct sim *sim, double dt)
   return OK;
 }
 
+/* whole cells may be behind obstacles that stay; all others are full */
 static enum status check_cell(const struct sim *sim, const struct ice *ice, long c)
 {
-  double x[3];
+  double x[3], open = ice->open_cc[c];
   grid_centre(&sim->grid, c, x);
-  if (!(ice->wet_cc[c] > 0))
+  if (open > 0 && open < 1)
+    return FAIL(
+        ERR_INPUT,
+        "numerics.ice.shocks: an obstacle leaves %g of the cell at (%g, %g, %g); in a fluid at any speed it must end "
+        "on the sides of cells: choose grid.h so",
+        open, x[0], x[1], x[2]);
+  if (open > 0 && !(ice->wet_cc[c] > 0))
     return FAIL(
         ERR_INPUT,
         "numerics.ice.shocks: the cell at (%g, %g, %g) is empty at the start, where a fluid at any speed has no "
@@ -133,6 +140,15 @@ static enum status check_scene(const struct scene *scene)
   if (scene->n_solids > 0)
     return FAIL(ERR_INPUT, "numerics.ice.shocks: a fluid at any speed does not meet solids yet; remove solids, or set "
                            "numerics.ice.shocks false");
+  for (int k = 0; k < scene->n_obstacles; k++) {
+    const struct obstacle *o = &scene->obstacles[k];
+    for (int d = 0; d < 3; d++)
+      if (o->from > 0 || o->until < scene->time_end || o->velocity[d].expression || o->velocity[d].constant != 0)
+        return FAIL(ERR_INPUT,
+                    "numerics.ice.shocks: the obstacle %s moves, comes or goes, which a fluid at any speed does "
+                    "not feel yet; let it stay",
+                    o->name);
+  }
   if (scene->n_fluids > MAX_SHOCK_FLUIDS)
     return FAIL(ERR_INPUT, "numerics.ice.shocks: %d fluids are too many; at most %d", scene->n_fluids,
                 MAX_SHOCK_FLUIDS);
@@ -177,7 +193,7 @@ enum status shock_create(struct sim *sim, struct ice *ice)
   FOR_BOX_SERIAL(&sim->grid, cells, c)
   {
     TRY(check_cell(sim, ice, c));
-    if (ice->n_fluids > 1) weigh_fluids(sim, ice, c);
+    if (ice->n_fluids > 1 && ice->wet_cc[c] > 0) weigh_fluids(sim, ice, c);
   }
   return ice->n_fluids > 1 ? plic_create(&sim->grid, ice->room_cc, &ice->plic) : OK;
 }
