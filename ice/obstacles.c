@@ -183,9 +183,10 @@ enum status obstacles_create(struct sim *sim, struct ice *ice)
 {
   const struct scene *scene = sim->scene;
   if (!obstacles_present(scene)) return OK;
-  if (!ice->advects)
-    return FAIL(ERR_INPUT, "obstacles: liquid flows around them only with numerics.ice.advection true, without "
-                           "numerics.ice.shocks; set it, or remove them");
+  if (!ice->advects && !ice->params->shocks)
+    return FAIL(ERR_INPUT,
+                "obstacles: liquid flows around them only with numerics.ice.advection or numerics.ice.shocks "
+                "true; set one, or remove them");
   TRY(NEW(&ice->obstacles, 1));
   struct obstacles *o = ice->obstacles;
   TRY(allocate(sim, o));

@@ -152,6 +152,11 @@ static enum status check_scene(const struct scene *scene)
   if (scene->n_fluids > MAX_SHOCK_FLUIDS)
     return FAIL(ERR_INPUT, "numerics.ice.shocks: %d fluids are too many; at most %d", scene->n_fluids,
                 MAX_SHOCK_FLUIDS);
+  if (scene->fluid.conductivity > 0)
+    return FAIL(ERR_INPUT,
+                "numerics.ice.shocks: a fluid at any speed does not conduct heat; set fluid.conductivity to 0, "
+                "not %g",
+                scene->fluid.conductivity);
   for (int k = 0; k < scene->n_fluids; k++) {
     const struct fluid *fluid = scene_fluid(scene, k);
     if (fluid->viscosity > 0)

@@ -236,6 +236,32 @@ START_TEST(sound_without_energy)
 }
 END_TEST
 
+/* ---- obstacles ---- */
+
+#define BLOCK                                                                                                          \
+  "{\"grid\": {\"min\": [0, 0], \"max\": [1, 0.5], \"h\": 0.05}" ZERO GAS                                              \
+  ", \"pressure\": \"1+9*step(0.3-x)\", \"temperature\": 1}, "                                                         \
+  "\"obstacles\": {\"block\": {\"shape\": {\"box\": {\"min\": [0.5, 0], \"max\": [0.7, 0.2]}}}}" NUMERICS "}"
+
+/* a shock runs over a block: its cells stay out of it, and nothing is lost at them */
+START_TEST(block_is_hit)
+{
+  struct scene_run run;
+  scene_open(BLOCK, &run);
+  double mass = scene_ledger(&run).v[LEDGER_mass_fluid], before = energy(&run), inside = 0;
+  ck_assert_double_eq_tol(mass, 0.5 - 0.04 + 9 * 0.3 * 0.5, 1e-12);
+  run_until(&run, 0.4);
+  ck_assert_double_eq_tol(scene_ledger(&run).v[LEDGER_mass_fluid], mass, 1e-12 * mass);
+  ck_assert_double_eq_tol(energy(&run), before, 1e-12 * before);
+  ck_assert_double_gt(fabs(scene_ledger(&run).v[LEDGER_momentum_y]), 0.01);
+  const struct ice *ice = ice_of(run.sim);
+  for (int i = 10; i < 14; i++)
+    for (int j = 0; j < 4; j++) inside += ice->mass_cc[grid_at(&run.sim->grid, i, j, 0)];
+  ck_assert_double_eq(inside, 0);
+  scene_close(&run);
+}
+END_TEST
+
 /* ---- several fluids ---- */
 
 /* gamma 1.4 up to x = 0.5, gamma 1.2 beyond; the second gas has its reference density at P = 1, T = 1 */
@@ -317,6 +343,7 @@ int main(void)
   tcase_add_test(tests, rest);
   tcase_add_test(tests, sound_with_energy);
   tcase_add_test(tests, sound_without_energy);
+  tcase_add_test(tests, block_is_hit);
   tcase_add_test(tests, contact_is_carried);
   tcase_add_test(tests, bubble_is_hit);
   suite_add_tcase(suite, tests);
