@@ -110,8 +110,10 @@ static enum status check_fluid(struct reader *reader, const struct scene *scene)
   if (fluid->path != &module_ice)
     return reader_fail(reader, "the path %s does not solve the fluid's energy; take fluid.path ice or remove it",
                        fluid->path ? fluid->path->name : "null");
-  if (scene->n_fluids > 1) return reader_fail(reader, "energy is not solved with several fluids; remove it or fluids");
   const struct ice_params *params = scene_module_params(scene, &module_ice);
+  if (scene->n_fluids > 1 && !params->shocks)
+    return reader_fail(reader, "energy of several fluids is solved at any speed only; remove it or fluids, or set "
+                               "numerics.ice.shocks true");
   if (params->advection || params->shocks) return OK;
   return reader_fail(reader, "heat goes with the flow, which is not followed; set numerics.ice.advection true");
 }
