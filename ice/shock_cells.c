@@ -152,6 +152,8 @@ static enum status check_scene(const struct scene *scene)
   if (scene->n_fluids > MAX_SHOCK_FLUIDS)
     return FAIL(ERR_INPUT, "numerics.ice.shocks: %d fluids are too many; at most %d", scene->n_fluids,
                 MAX_SHOCK_FLUIDS);
+  if (scene->n_fluids > 1 && isfinite(scene->fluid.exchange))
+    return FAIL(ERR_INPUT, "numerics.ice.shocks: fluids at any speed have one velocity; leave fluid.exchange out");
   if (scene->fluid.conductivity > 0)
     return FAIL(ERR_INPUT,
                 "numerics.ice.shocks: a fluid at any speed does not conduct heat; set fluid.conductivity to 0, "
