@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-enum { MAX_STAGES = 64, MAX_PLAN_FIELDS = 256 };
+enum { MAX_STAGES = 128, MAX_PLAN_FIELDS = 256 };
 
 /** Every module of run/modules.def; NULL-terminated. */
 extern const struct module *const all_modules[];
