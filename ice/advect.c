@@ -59,7 +59,19 @@ double advect_leaving_velocity(const struct sim *sim, const struct ice *ice, int
   return ice->vel_cc[q] + (up ? 0.5 : -0.5) * (1 - number) * slope - 0.5 * ice->vel_start_cc[q];
 }
 
-/* momentum component d through a face in dt, kg m/s */
+/* the same where a side of given pressure lets liquid in or out: without a gradient there, so as it is inside */
+static double open_velocity(const struct sim *sim, const struct ice *ice, int axis, long f, int d)
+{
+  const struct grid *g = &sim->grid;
+  int                place[3];
+  grid_place(g, f, place);
+  long   inside = place[axis] == 0 ? f : f - g->stride[axis], q = inside * g->dim + d;
+  double half = ice->alpha_cc[inside] > advect_full && !ice_has_surface(g, ice, inside) ? 0.5 : 0;
+  return ice->vel_cc[q] - half * ice->vel_start_cc[q];
+}
+
+/* momentum component d through a face in dt, kg m/s: where fluxes are of second order, the mean of those at both ends
+ * of the step */
 static double carried_momentum(const struct sim *sim, const struct ice *ice, int axis, long f, int d, double dt)
 {
   const struct grid *g = &sim->grid;
@@ -67,12 +79,13 @@ static double carried_momentum(const struct sim *sim, const struct ice *ice, int
   double             V = grid_cell_volume(g), liquid = ice->liquid_fc[q] * V;
   long               from = liquid > 0 ? low : f;
   if (liquid == 0) return 0; /* nobody knows what lies behind a wall */
-  if (ice->kind[q] == FACE_INLET) return liquid * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t);
+  double mean = liquid + (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q];
+  if (ice->kind[q] == FACE_INLET)
+    return mean * ice->rho_cc[from] * ice_inlet_velocity(sim, axis, d, f, sim->t + 0.5 * sim->dt);
+  if (ice->kind[q] == FACE_PRESSURE) return mean * ice->rho_cc[from] * open_velocity(sim, ice, axis, f, d);
   if (!advect_is_smooth(g, ice, axis, f)) return liquid * ice->rho_cc[from] * ice->vel_cc[from * g->dim + d];
-  double number = advect_courant(g, ice, axis, f, from),
-         coming = (0.5 - sim->scene->numerics.theta) * dt * V / g->h * ice->trend_fc[q];
-  return (liquid + coming) * advect_density(g, ice, axis, f) *
-         advect_leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
+  double number = advect_courant(g, ice, axis, f, from);
+  return mean * advect_density(g, ice, axis, f) * advect_leaving_velocity(sim, ice, axis, from, liquid > 0, d, number);
 }
 
 double advect_mass(const struct ice *ice, const struct grid *g, int axis, long f)

@@ -73,6 +73,6 @@ void ice_end_forecast(struct sim *sim, struct ice *ice, double dt)
 double ice_face_forecast(const struct sim *sim, const struct ice *ice, int axis, long f)
 {
   const struct grid *g = &sim->grid;
-  if (!ice->advects || !advect_is_smooth(&sim->grid, ice, axis, f)) return 0;
+  if (!ice->forecast_cc || !advect_is_smooth(&sim->grid, ice, axis, f)) return 0;
   return 0.5 * (ice->forecast_cc[f * g->dim + axis] + ice->forecast_cc[(f - g->stride[axis]) * g->dim + axis]);
 }

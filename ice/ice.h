@@ -68,6 +68,7 @@ struct ice {
     double mass_out, others_out;   /* kg through open sides, net, since the start: first fluid, others */
     double squeeze;                /* 1/s, fastest change of volume of the last step; with params->shocks */
     double heat_out;               /* J that went with it */
+    double shear[3];               /* N s, of viscous stress on the sides since the start */
     double viscosity;              /* m2/s, largest with eddies */
     double heat_sides;             /* J conducted in through sides since the start */
     double heat_side[SIDES];       /* W through each side in the last step */

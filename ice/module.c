@@ -233,6 +233,7 @@ static void measure(const struct sim *sim, struct ledger *l)
   const struct ice *ice = ice_of(sim);
   for (int k = 0; k < ice->n_fluids; k++) measure_fluid(sim, ice, k, l);
   if (ice->params->shocks) shock_measure(sim, l);
+  for (int d = 0; d < sim->grid.dim; d++) l->v[LEDGER_shear_x + d] += ice->now.shear[d];
   if (ice->T_cc) ice_heat_measure(sim, l);
   l->v[LEDGER_mass_fluid_out] += ice->now.mass_out;
   l->v[LEDGER_mass_others_out] += ice->now.others_out;

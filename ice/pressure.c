@@ -201,6 +201,9 @@ double ice_face_gradient(const struct sim *sim, const struct ice *ice, const dou
   return (high_q - low_q) / (ice_face_distance(sim, ice, axis, f) * sim->grid.h);
 }
 
+/* a surface that passes, or a cell that fills, is no change of the flow */
+static bool has_trend(enum face_kind kind) { return kind == FACE_INNER || kind == FACE_PRESSURE || kind == FACE_INLET; }
+
 static void correct_axis(struct sim *sim, struct ice *ice, int axis, double dt)
 {
   const struct grid *g = &sim->grid;
@@ -222,7 +225,7 @@ static void correct_axis(struct sim *sim, struct ice *ice, int axis, double dt)
     ice->flux_fc[q] = ice->kind[q] == FACE_INLET      ? water
                       : ice_face_active(ice->kind[q]) ? water + open * (1 - n) * ice->s_fc[q]
                                                       : 0;
-    if (ice->trend_fc) ice->trend_fc[q] = ice->kind[q] == FACE_INNER ? water - ice->water_fc[q] : 0;
+    if (ice->trend_fc) ice->trend_fc[q] = has_trend(ice->kind[q]) ? water - ice->water_fc[q] : 0;
     ice->carried_fc[q] = theta * water + (1 - theta) * ice->water_fc[q];
     ice->water_fc[q] = water;
   }

@@ -114,6 +114,26 @@ static double stress_of_eddies(const struct sim *sim, const struct ice *ice, int
   return mu * (2 * normal - 2.0 / 3 * div);
 }
 
+/* impulse on the sides in dt */
+static void push_sides(const struct sim *sim, struct ice *ice, double dt)
+{
+  const struct grid *g = &sim->grid;
+  for (int side = 0; side < 2 * g->dim; side++) {
+    int        axis = side / 2, high = side % 2;
+    struct box faces = grid_cells(g);
+    if (g->periodic[axis]) continue;
+    faces.lo[axis] = high ? g->n[axis] : 0;
+    faces.hi[axis] = faces.lo[axis] + 1;
+    FOR_BOX_SERIAL(g, faces, f)
+    for (int d = 0; d < g->dim; d++) {
+      double stress = ice->mu_cc ? stress_of_eddies(sim, ice, axis, f, d) : stress_of_uniform(sim, ice, axis, f, d);
+      bool   wet = ice->wet_cc[high ? f - g->stride[axis] : f] > 0;
+      if (wet)
+        ice->now.shear[d] += (high ? -dt : dt) * ice->porosity_fc[axis * g->size + f] * ice_face_area(g) * stress;
+    }
+  }
+}
+
 /* ---- stages ---- */
 
 /* share of a face that passes stress: beside cut cells no more than they hold, which would be flung about */
@@ -145,6 +165,7 @@ static inline void push(struct sim *sim, struct ice *ice, double dt, double *cha
 
 static void find_change(struct sim *sim, struct ice *ice, double dt, double *change)
 {
+  push_sides(sim, ice, 0.5 * dt);
   if (ice->mu_cc)
     push(sim, ice, dt, change, stress_of_eddies);
   else if (ice->several)
