@@ -14,8 +14,10 @@ struct linear; /* opaque */
 
 struct linear_report {
   int    iterations; /* 0: direct, or nothing to do */
+  bool   smg;        /* hypre with PFMG missed the tolerance; SMG was asked */
   bool   fell_back;  /* the method asked for failed and the direct solver took over */
   double residual;   /* largest |b - A x|, computed by ourselves */
+  double rms;        /* its rms over the active cells */
 };
 
 /** System over the owned cells of a grid. LINEAR_AUTO: direct for small grids. */
@@ -29,9 +31,10 @@ void        linear_destroy(struct linear **linear);
 void linear_set_matrix(struct linear *linear, const double *diagonal, const double *coupling, bool singular,
                        const double *active);
 
-/** Solves A x = b from the guess x = 0 until max |b - A x| <= tolerance (the direct solver: always, to round-off);
- * b, x [size]. The first solve of a matrix sets it up. A tolerance that was not reached shows in report->residual.
- * ERR_SOLVER: the matrix is not positive definite (told by the direct solver). */
+/** Solves A x = b from the guess x = 0 until the rms of b - A x over the active cells is at most tolerance (the direct
+ * solver: always, to round-off); b, x [size]. The first solve of a matrix sets it up. hypre goes from PFMG to SMG to
+ * the direct solver until one meets the tolerance; one that was not reached shows in the report. ERR_SOLVER: the matrix
+ * is not positive definite (told by the direct solver). */
 enum status linear_solve(struct linear *linear, double tolerance, double *b, double *x,
                          struct linear_report *report) MUST_CHECK;
 

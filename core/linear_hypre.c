@@ -1,4 +1,5 @@
-/* hypre: Struct PCG with one PFMG V-cycle as preconditioner. The only file that knows hypre and MPI. */
+/* hypre: Struct PCG with one V-cycle of PFMG or SMG as preconditioner. The only file of the program that knows hypre
+ * and MPI. */
 #include "core/linear_parts.h"
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -19,7 +20,7 @@ struct linear_hypre {
   HYPRE_StructStencil stencil;
   HYPRE_StructMatrix  A;
   HYPRE_StructVector  b, x;
-  HYPRE_StructSolver  pcg, pfmg;
+  HYPRE_StructSolver  pcg[2], cycle[2]; /* by enum multigrid; NULL: not set up for this matrix */
 };
 
 /* hypre needs MPI; both are started once, when the first system asks for them, and end with the program */
@@ -55,28 +56,50 @@ static void create_structures(struct linear_hypre *l)
   HYPRE_StructVectorInitialize(l->x);
 }
 
-static void destroy_solver(struct linear_hypre *l)
+static void destroy_solvers(struct linear_hypre *l)
 {
-  if (!l->pcg) return;
-  HYPRE_StructPCGDestroy(l->pcg);
-  HYPRE_StructPFMGDestroy(l->pfmg);
+  if (l->pcg[MULTIGRID_PFMG]) HYPRE_StructPFMGDestroy(l->cycle[MULTIGRID_PFMG]);
+  if (l->pcg[MULTIGRID_SMG]) HYPRE_StructSMGDestroy(l->cycle[MULTIGRID_SMG]);
+  for (int m = 0; m < 2; m++) {
+    if (l->pcg[m]) HYPRE_StructPCGDestroy(l->pcg[m]);
+    l->pcg[m] = NULL;
+  }
+}
+
+/* red-black sweeps, forwards before and backwards after the coarser grid: symmetric, as CG asks, and two iterations
+ * fewer than Jacobi's */
+static void create_pfmg(HYPRE_StructSolver pcg, HYPRE_StructSolver *pfmg)
+{
+  HYPRE_StructPFMGCreate(MPI_COMM_SELF, pfmg);
+  HYPRE_StructPFMGSetMaxIter(*pfmg, 1);
+  HYPRE_StructPFMGSetTol(*pfmg, 0);
+  HYPRE_StructPFMGSetZeroGuess(*pfmg);
+  HYPRE_StructPFMGSetRelaxType(*pfmg, 2);
+  HYPRE_StructPFMGSetRAPType(*pfmg, 0);
+  HYPRE_StructPCGSetPrecond(pcg, HYPRE_StructPFMGSolve, HYPRE_StructPFMGSetup, *pfmg);
+}
+
+static void create_smg(HYPRE_StructSolver pcg, HYPRE_StructSolver *smg)
+{
+  HYPRE_StructSMGCreate(MPI_COMM_SELF, smg);
+  HYPRE_StructSMGSetMaxIter(*smg, 1);
+  HYPRE_StructSMGSetTol(*smg, 0);
+  HYPRE_StructSMGSetZeroGuess(*smg);
+  HYPRE_StructSMGSetNumPreRelax(*smg, 1);
+  HYPRE_StructSMGSetNumPostRelax(*smg, 1);
+  HYPRE_StructPCGSetPrecond(pcg, HYPRE_StructSMGSolve, HYPRE_StructSMGSetup, *smg);
 }
 
 /* A solver serves one matrix. Set up a second time it would leak its hierarchy, and coarsen from the spacings that the
  * first set-up doubled: five times more iterations. */
-static void create_solver(struct linear_hypre *l)
+static void create_solver(struct linear_hypre *l, enum multigrid multigrid)
 {
-  destroy_solver(l);
-  HYPRE_StructPFMGCreate(MPI_COMM_SELF, &l->pfmg);
-  HYPRE_StructPFMGSetMaxIter(l->pfmg, 1);
-  HYPRE_StructPFMGSetTol(l->pfmg, 0);
-  HYPRE_StructPFMGSetZeroGuess(l->pfmg);
-  HYPRE_StructPFMGSetRelaxType(l->pfmg, 1);
-  HYPRE_StructPFMGSetRAPType(l->pfmg, 0);
-  HYPRE_StructPCGCreate(MPI_COMM_SELF, &l->pcg);
-  HYPRE_StructPCGSetMaxIter(l->pcg, MAX_ITERATIONS);
-  HYPRE_StructPCGSetTwoNorm(l->pcg, 1);
-  HYPRE_StructPCGSetPrecond(l->pcg, HYPRE_StructPFMGSolve, HYPRE_StructPFMGSetup, l->pfmg);
+  HYPRE_StructPCGCreate(MPI_COMM_SELF, &l->pcg[multigrid]);
+  HYPRE_StructPCGSetMaxIter(l->pcg[multigrid], MAX_ITERATIONS);
+  HYPRE_StructPCGSetTwoNorm(l->pcg[multigrid], 1);
+  HYPRE_StructPCGSetTol(l->pcg[multigrid], 0);
+  (multigrid == MULTIGRID_SMG ? create_smg : create_pfmg)(l->pcg[multigrid], &l->cycle[multigrid]);
+  HYPRE_StructPCGSetup(l->pcg[multigrid], l->A, l->b, l->x);
 }
 
 enum status linear_hypre_create(const struct grid *g, struct linear_hypre **hypre)
@@ -98,7 +121,7 @@ void linear_hypre_destroy(struct linear_hypre **hypre)
 {
   struct linear_hypre *l = *hypre;
   if (!l) return;
-  destroy_solver(l);
+  destroy_solvers(l);
   if (l->box) {
     HYPRE_StructVectorDestroy(l->x);
     HYPRE_StructVectorDestroy(l->b);
@@ -114,26 +137,22 @@ void linear_hypre_destroy(struct linear_hypre **hypre)
 void linear_hypre_set(struct linear_hypre *l, const struct linear_matrix *A)
 {
   const struct grid *g = &l->grid;
-  struct box         cells = grid_cells(g);
-  int                width = 1 + g->dim, entries[4] = {0, 1, 2, 3};
+  int                width = 1 + g->dim, nx = g->n[0], entries[4] = {0, 1, 2, 3};
   PARALLEL_FOR
-  for (long r = 0; r < box_rows(&cells); r++) {
-    long    c0 = box_row(g, &cells, r);
-    double *v = l->values + r * g->n[0] * width;
-    for (int i = 0; i < g->n[0]; i++, v += width) {
-      int place[3];
-      grid_place(g, c0 + i, place);
-      v[0] = A->diagonal[c0 + i];
-      for (int d = 0; d < g->dim; d++) {
-        bool beyond = place[d] == g->n[d] - 1 && !g->periodic[d];
-        v[1 + d] = beyond ? 0 : A->coupling[d * g->size + linear_upper(g, c0 + i, d)];
-      }
+  for (long r = 0; r < (long)g->n[1] * g->n[2]; r++) {
+    struct linear_row row = linear_row(g, r);
+    double           *v = l->values + r * nx * width;
+    for (int i = 0; i < nx; i++) v[i * width] = A->diagonal[row.first + i];
+    for (int d = 0; d < g->dim; d++) {
+      const double *k = A->coupling + d * g->size + row.first + (d == 0 ? 1 : row.up[d]);
+      for (int i = 0; i < nx; i++) v[i * width + 1 + d] = d == 0 || row.has_up[d] ? k[i] : 0;
     }
+    long last = row.first + nx - 1;
+    v[(nx - 1) * width + 1] = row.has_up[0] ? A->coupling[last + row.up[0]] : 0;
   }
   HYPRE_StructMatrixSetBoxValues(l->A, l->lower, l->upper, width, entries, l->values);
   HYPRE_StructMatrixAssemble(l->A);
-  create_solver(l);
-  HYPRE_StructPCGSetup(l->pcg, l->A, l->b, l->x);
+  destroy_solvers(l);
 }
 
 static double norm2(const double *v, long n)
@@ -143,18 +162,16 @@ static double norm2(const double *v, long n)
   return sqrt(s);
 }
 
-int linear_hypre_solve(struct linear_hypre *l, double tolerance, const double *b, double *x)
+int linear_hypre_solve(struct linear_hypre *l, enum multigrid multigrid, double tolerance, const double *b, double *x)
 {
   int iterations = 0;
-  linear_to_flat(&l->grid, b, l->flat);
-  double size = norm2(l->flat, linear_cells(&l->grid));
-  HYPRE_StructVectorSetBoxValues(l->b, l->lower, l->upper, l->flat);
-  HYPRE_StructVectorAssemble(l->b);
+  if (!l->pcg[multigrid]) create_solver(l, multigrid);
   HYPRE_StructVectorSetConstantValues(l->x, 0);
-  HYPRE_StructVectorAssemble(l->x);
-  HYPRE_StructPCGSetTol(l->pcg, fmin(0.5, tolerance / size));
-  HYPRE_StructPCGSolve(l->pcg, l->A, l->b, l->x);
-  HYPRE_StructPCGGetNumIterations(l->pcg, &iterations);
+  linear_to_flat(&l->grid, b, l->flat);
+  HYPRE_StructVectorSetBoxValues(l->b, l->lower, l->upper, l->flat);
+  HYPRE_StructPCGSetTol(l->pcg[multigrid], fmin(0.5, tolerance / norm2(l->flat, linear_cells(&l->grid))));
+  HYPRE_StructPCGSolve(l->pcg[multigrid], l->A, l->b, l->x);
+  HYPRE_StructPCGGetNumIterations(l->pcg[multigrid], &iterations);
   HYPRE_ClearAllErrors(); /* "not converged" is judged by the true residual */
   HYPRE_StructVectorGetBoxValues(l->x, l->lower, l->upper, l->flat);
   linear_from_flat(&l->grid, l->flat, x);

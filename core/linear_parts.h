@@ -16,17 +16,27 @@ long linear_number(const struct grid *g, const int place[3]);
 /** Neighbours of an owned cell along an axis, wrapped where it is periodic; elsewhere they may be ghosts. */
 long linear_upper(const struct grid *g, long cell, int axis);
 long linear_lower(const struct grid *g, long cell, int axis);
+/* A row of owned cells along x: its first cell, and how far its neighbours across lie; at the ends along x wrapped
+ * ones.
+ */
+struct linear_row {
+  long first, up[3], low[3];
+  bool has_up[3]; /* the upper neighbour is an owned cell; along x: of the last cell */
+};
+struct linear_row linear_row(const struct grid *g, long row);
 /** Copies owned cells of a field to a dense array, or back. */
 void linear_to_flat(const struct grid *g, const double *field, double *flat);
 void linear_from_flat(const struct grid *g, const double *flat, double *field);
 
-/* hypre Struct PCG + PFMG */
+/* hypre Struct PCG, with one cycle of PFMG or SMG before each iteration */
 struct linear_hypre;
+enum multigrid { MULTIGRID_PFMG, MULTIGRID_SMG };
 enum status linear_hypre_create(const struct grid *g, struct linear_hypre **hypre) MUST_CHECK;
 void        linear_hypre_destroy(struct linear_hypre **hypre);
 void        linear_hypre_set(struct linear_hypre *hypre, const struct linear_matrix *A);
-/** From the guess zero until the 2-norm of the residual is below tolerance; returns the number of iterations. */
-int linear_hypre_solve(struct linear_hypre *hypre, double tolerance, const double *b, double *x);
+/** From x = 0 until the 2-norm of the residual is below tolerance; returns the number of iterations. */
+int linear_hypre_solve(struct linear_hypre *hypre, enum multigrid multigrid, double tolerance, const double *b,
+                       double *x);
 
 /* CHOLMOD */
 struct linear_direct;

@@ -9,7 +9,7 @@
 #include "core/scene.h"
 
 struct solver_report {
-  long solves, iterations, fallbacks;
+  long solves, iterations, smg, fallbacks; /* smg, fallbacks: solves that PFMG, SMG did not manage */
   long equilibria, equilibrium_steps; /* pressures of cells found from the volumes of several fluids, and their steps */
   double residual_max;                /* volume that the pressure solve left in a step, over a cell's volume */
 };

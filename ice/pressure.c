@@ -123,7 +123,7 @@ static double largest(const struct grid *g, const double *q)
 {
   struct box cells = grid_cells(g);
   double     most = 0;
-  FOR_BOX_SERIAL(g, cells, c) most = fmax(most, fabs(q[c]));
+  FOR_BOX_SERIAL(g, cells, c) most = fabs(q[c]) > most ? fabs(q[c]) : most;
   return most;
 }
 
@@ -133,6 +133,7 @@ static enum status solve(struct sim *sim, struct ice *ice, double *rhs, double *
   TRY(linear_solve(ice->linear, tolerance, rhs, x, &report));
   sim->solver.solves++;
   sim->solver.iterations += report.iterations;
+  sim->solver.smg += report.smg;
   sim->solver.fallbacks += report.fell_back;
   *residual = report.residual;
   if (report.residual < INFINITY) return OK;

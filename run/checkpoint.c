@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FORMAT = 1, N_WHOLE = 7, N_REAL = 6, SCENE_LIMIT = 1 << 26 };
+enum { FORMAT = 1, N_WHOLE = 8, N_REAL = 6, SCENE_LIMIT = 1 << 26 };
 
 static const char *const set_name[N_SETS] = {[SET_SOLID] = "points/solid", [SET_WATER] = "points/water"};
 
@@ -43,8 +43,8 @@ static enum status hash_scene(const char *folder, long *hash)
 static enum status transfer_numbers(const struct transfer_file *f, struct sim *sim)
 {
   struct solver_report *r = &sim->solver;
-  long                  whole[N_WHOLE] = {sim->step,    sim->n_markers, r->solves,           r->iterations,
-                                          r->fallbacks, r->equilibria,  r->equilibrium_steps};
+  long                  whole[N_WHOLE] = {sim->step, sim->n_markers, r->solves,     r->iterations,
+                                          r->smg,    r->fallbacks,   r->equilibria, r->equilibrium_steps};
   double real[N_REAL] = {sim->t, sim->dt, sim->dt_limit, r->residual_max, sim->defect_rms_max, sim->defect_max};
   TRY(transfer(f, "sim/whole", H5_LONG, N_WHOLE, whole));
   TRY(transfer(f, "sim/real", H5_DOUBLE, N_REAL, real));
@@ -55,7 +55,7 @@ static enum status transfer_numbers(const struct transfer_file *f, struct sim *s
     return FAIL(ERR_INPUT, "%s: %ld markers, but the scene has %d; resume with the scene of the run", f->h->path,
                 whole[1], sim->n_markers);
   sim->step = whole[0];
-  *r = (struct solver_report){whole[2], whole[3], whole[4], whole[5], whole[6], real[3]};
+  *r = (struct solver_report){whole[2], whole[3], whole[4], whole[5], whole[6], whole[7], real[3]};
   sim->t = real[0];
   sim->dt = real[1];
   sim->dt_limit = real[2];

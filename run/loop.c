@@ -359,6 +359,8 @@ static void fill_record(const struct run *r, struct run_record *record)
       .peak_rss_bytes = usage.ru_maxrss * 1024,
       .solves = sim->solver.solves,
       .iterations = sim->solver.iterations,
+      .smg = sim->solver.smg,
+      .fallbacks = sim->solver.fallbacks,
       .equilibria = sim->solver.equilibria,
       .equilibrium_steps = sim->solver.equilibrium_steps,
       .residual_max = sim->solver.residual_max,

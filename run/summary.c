@@ -84,6 +84,8 @@ static void add_quality(cJSON *root, const struct run_record *r)
   cJSON *solver = cJSON_AddObjectToObject(root, "pressure_solver");
   number(solver, "solves", (double)r->solves);
   number(solver, "iterations_mean", r->solves > 0 ? (double)r->iterations / (double)r->solves : 0);
+  number(solver, "with_smg", (double)r->smg);
+  number(solver, "with_direct", (double)r->fallbacks);
   number(solver, "residual_max", r->residual_max);
   number(solver, "equilibria", (double)r->equilibria);
   number(solver, "equilibrium_steps_mean",

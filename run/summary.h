@@ -46,7 +46,7 @@ struct run_record {
   const struct stage_entry    *stages;
   const struct left_out_entry *left_out;
   const struct metric_entry   *metrics;
-  long                         solves, iterations, equilibria, equilibrium_steps;
+  long                         solves, iterations, smg, fallbacks, equilibria, equilibrium_steps;
   double                       residual_max;
   double                       defect_rms_max, defect_max;
   struct start_record          start;

@@ -37,7 +37,7 @@ static void scramble(struct fake_run *r, unsigned seed)
   r->sim.dt = rand() / 13.0;
   r->sim.dt_limit = rand() / 17.0;
   r->sim.step = rand();
-  r->sim.solver = (struct solver_report){rand(), rand(), rand(), rand(), rand(), rand() / 19.0};
+  r->sim.solver = (struct solver_report){rand(), rand(), rand(), rand(), rand(), rand(), rand() / 19.0};
   r->sim.defect_rms_max = rand() / 23.0;
   r->sim.defect_max = rand() / 29.0;
 }
@@ -68,6 +68,7 @@ static long gather(const struct fake_run *r, double *all)
                                         (double)r->sim.step,
                                         (double)s->solves,
                                         (double)s->iterations,
+                                        (double)s->smg,
                                         (double)s->fallbacks,
                                         (double)s->equilibria,
                                         (double)s->equilibrium_steps,
