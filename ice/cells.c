@@ -14,8 +14,18 @@ static double moved_share(const struct grid *g, const struct ice *ice, long c, i
   return fmax(ice->open_cc[c], 0.5 * (open[c] + open[c + g->stride[d]]));
 }
 
+/* change of velocity at a face of a cell in this step: what a side prescribes changes, too, and moves liquid that moves
+ */
+static double change_at_face(const struct sim *sim, const struct ice *ice, int axis, long f, double dt)
+{
+  long q = axis * sim->grid.size + f;
+  if (ice_face_active(ice->kind[q])) return ice->u_fc[q] - ice->u_old_fc[q];
+  if (!ice->advects || ice->kind[q] != FACE_INLET) return 0;
+  return ice_inlet_velocity(sim, axis, axis, f, sim->t + dt) - ice_inlet_velocity(sim, axis, axis, f, sim->t);
+}
+
 /* each face hands half of its impulse n rho V du to each of its cells: nothing is lost between them */
-static void move_cells(struct sim *sim, struct ice *ice)
+static void move_cells(struct sim *sim, struct ice *ice, double dt)
 {
   const struct grid *g = &sim->grid;
   struct box         cells = grid_cells(g);
@@ -26,10 +36,10 @@ static void move_cells(struct sim *sim, struct ice *ice)
     for (int d = 0; d < g->dim; d++) {
       double impulse = 0;
       for (int high = 0; high < 2; high++) {
-        long f = c + high * g->stride[d], q = d * g->size + f;
-        if (ice_face_active(ice->kind[q]))
-          impulse += half * ice->open_fc[q] * ice->porosity_fc[q] * ice_face_density(g, ice, d, f) *
-                     (ice->u_fc[q] - ice->u_old_fc[q]);
+        long   f = c + high * g->stride[d], q = d * g->size + f;
+        double change = change_at_face(sim, ice, d, f, dt);
+        if (change != 0)
+          impulse += half * ice->open_fc[q] * ice->porosity_fc[q] * ice_face_density(g, ice, d, f) * change;
       }
       ice->vel_cc[c * g->dim + d] += impulse * ice->open_cc[c] / (ice->mass_cc[c] * moved_share(g, ice, c, d));
     }
@@ -229,7 +239,7 @@ enum status ice_accelerate_cells(struct sim *sim, double dt)
   else if (ice->several)
     move_several(sim, ice);
   else {
-    move_cells(sim, ice);
+    move_cells(sim, ice, dt);
     move_loose_cells(sim, ice);
   }
   grid_fill_periodic(&sim->grid, sim->grid.dim, ice->vel_cc);
@@ -241,7 +251,7 @@ enum status ice_update_cells(struct sim *sim, double dt)
 {
   struct ice *ice = ice_of(sim);
   TRY(watch(sim, ice));
-  move_cells(sim, ice);
+  move_cells(sim, ice, dt);
   carry_mass(sim, ice, dt);
   ice->now.mass_out += leaving_mass(sim, ice, dt);
   grid_fill_periodic(&sim->grid, 1, ice->mass_cc);

@@ -250,9 +250,12 @@ static void start_fluxes(struct sim *sim, struct ice *ice)
     {
       long   q = axis * g->size + f, low = f - g->stride[axis];
       double wet = ice->wet_cc[f] + ice->wet_cc[low];
-      if (!ice_face_active(ice->kind[q])) continue;
+      bool   given = ice->kind[q] == FACE_INLET;
+      if (!ice_face_active(ice->kind[q]) && !given) continue;
       double u =
-          (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
+          given
+              ? ice_inlet_velocity(sim, axis, axis, f, 0)
+              : (ice->wet_cc[f] * ice->vel_cc[f * dim + axis] + ice->wet_cc[low] * ice->vel_cc[low * dim + axis]) / wet;
       ice->water_fc[q] = ice->flux_fc[q] = ice->porosity_fc[q] * ice->open_fc[q] * u;
       ice->now.speed = fmax(ice->now.speed, fabs(u));
     }
