@@ -114,7 +114,7 @@ START_TEST(start_of_another)
   fake_create(2, &r);
   write_scene(&r, "{}");
   scramble(&r, 1);
-  long n = gather(&r, first), numbers = 2 * N_LEDGER + 12;
+  long n = gather(&r, first), numbers = 2 * N_LEDGER + 13;
   fake_ok(checkpoint_write(r.folder, &r.sim, N_ITEMS, item));
   scramble(&r, 2);
   gather(&r, second);
