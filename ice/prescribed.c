@@ -38,7 +38,6 @@ void ice_create_prescribed(struct sim *sim, struct ice *ice)
       ice->now.speed = fmax(ice->now.speed, fabs(*u));
     }
   }
-  ice_open_rooms(sim, ice);
 }
 
 /* how far cells are filled beyond their room, or emptied below nothing */
@@ -70,6 +69,7 @@ enum status ice_carry_prescribed(struct sim *sim, double dt)
     return FAIL(ERR_INPUT, "fluid.strength: %g at t = %g s; keep it between -1 and 1 and make fluid.velocity larger",
                 strength, sim->t + 0.5 * dt);
   watch(sim, ice);
+  ice_open_rooms(sim, ice);
   for (int axis = 0; axis < g->dim; axis++) {
     struct box faces = grid_faces(g, axis);
     FOR_BOX(g, faces, f) ice->carried_fc[axis * g->size + f] = strength * ice->water_fc[axis * g->size + f];

@@ -104,7 +104,7 @@ static double rate_along(const struct sim *sim, const struct ice *ice, int axis,
 static double stress_of_eddies(const struct sim *sim, const struct ice *ice, int axis, long f, int d)
 {
   const struct grid *g = &sim->grid;
-  double             low = ice->mu_cc[f - g->stride[axis]], high = ice->mu_cc[f];
+  double             low = fmax(0, ice->mu_cc[f - g->stride[axis]]), high = fmax(0, ice->mu_cc[f]); /* or unknown: 0 */
   double             mu = low > 0 && high > 0 ? (ice->several ? harmonic(low, high) : 0.5 * (low + high)) : low + high;
   double             normal = rate(sim, ice, axis, f, d), div = normal;
   if (ice->kind[axis * g->size + f] != FACE_INNER && normal == 0) return 0;

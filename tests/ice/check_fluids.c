@@ -69,7 +69,7 @@ START_TEST(layers_stay)
     if (still[_i].base > 0) ck_assert_double_eq_tol(P, still[_i].base, 1e-3);
     scene_steps(&run, 200, INFINITY);
     after = scene_ledger(&run);
-    ck_assert_msg(fastest(&run) < 1e-11, "%g m/s", fastest(&run));
+    ck_assert_msg(fastest(&run) < 1e-10, "%g m/s", fastest(&run));
     ck_assert_double_eq_tol(ice->P_cc[base], P, 1e-9 * P);
     for (int e = 0; e < 2; e++) {
       int entry = e ? LEDGER_mass_others : LEDGER_mass_fluid;
@@ -181,7 +181,7 @@ START_TEST(layers_rest_apart)
     struct ledger before = scene_ledger(&run), after;
     scene_steps(&run, 100, INFINITY);
     after = scene_ledger(&run);
-    ck_assert_msg(fastest(&run) < 1e-11, "%g m/s", fastest(&run));
+    ck_assert_msg(fastest(&run) < 1e-10, "%g m/s", fastest(&run));
     ck_assert_double_eq_tol(after.v[LEDGER_mass_others], before.v[LEDGER_mass_others],
                             1e-14 * before.v[LEDGER_mass_others]);
     scene_close(&run);
@@ -199,7 +199,8 @@ static double drop_after(const char *exchange, double *energy)
   after = scene_ledger(&run);
   for (int d = 0; d < 2; d++) {
     double p = before.v[LEDGER_momentum_x + d];
-    ck_assert_double_eq_tol(after.v[LEDGER_momentum_x + d], p, 1e-11 * fabs(p));
+    double lost = fabs(after.v[LEDGER_momentum_x + d] / p - 1);
+    ck_assert_msg(lost < 1e-10, "%s: momentum off by %g", exchange, lost);
   }
   *energy = after.v[LEDGER_kinetic_fluid] / before.v[LEDGER_kinetic_fluid];
   double t = run.sim->t;
