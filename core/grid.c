@@ -59,6 +59,14 @@ struct box grid_faces(const struct grid *g, int axis)
   return b;
 }
 
+struct box grid_side_faces(const struct grid *g, int side)
+{
+  struct box b = grid_cells(g);
+  b.lo[side / 2] = side % 2 ? g->n[side / 2] : 0;
+  b.hi[side / 2] = b.lo[side / 2] + 1;
+  return b;
+}
+
 struct box grid_all(const struct grid *g)
 {
   struct box b = grid_cells(g);

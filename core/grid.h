@@ -44,6 +44,9 @@ struct box grid_cells(const struct grid *g);
 struct box grid_nodes(const struct grid *g);
 /** Faces with normal `axis` that touch an owned cell. */
 struct box grid_faces(const struct grid *g, int axis);
+/** Faces on a side of the grid, 2 axis or 2 axis + 1: numbered as the cells above them, so those of an upper side lie
+ * one beyond. */
+struct box grid_side_faces(const struct grid *g, int side);
 /** Box with every entry, ghosts included. */
 struct box grid_all(const struct grid *g);
 

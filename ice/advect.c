@@ -134,9 +134,7 @@ static double mass_out(const struct sim *sim, const struct ice *ice, int k, int 
   const struct grid *g = &sim->grid;
   double             out = 0;
   for (int high = 0; high < 2 && !g->periodic[axis]; high++) {
-    struct box side = grid_cells(g);
-    side.lo[axis] = high ? g->n[axis] : 0;
-    side.hi[axis] = side.lo[axis] + 1;
+    struct box side = grid_side_faces(g, 2 * axis + high);
     FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * mass_through(ice, g, k, axis, f);
   }
   return out;
@@ -177,10 +175,8 @@ void ice_open_rooms(struct sim *sim, struct ice *ice)
   grid_fill_periodic(g, 1, ice->pore_cc);
   for (int side = 0; side < 2 * g->dim; side++) {
     int        axis = side / 2, high = side % 2;
-    struct box faces = grid_cells(g);
+    struct box faces = grid_side_faces(g, side);
     if (g->periodic[axis]) continue;
-    faces.lo[axis] = high ? g->n[axis] : 0;
-    faces.hi[axis] = faces.lo[axis] + 1;
     FOR_BOX_SERIAL(g, faces, f)
     {
       long           inside = high ? f - g->stride[axis] : f, beyond = high ? f : f - g->stride[axis];

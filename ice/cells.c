@@ -173,10 +173,8 @@ static double leaving_mass(const struct sim *sim, const struct ice *ice, double 
   double             out = 0;
   for (int side = 0; side < 2 * g->dim; side++) {
     int        axis = side / 2;
-    struct box b = grid_cells(g);
+    struct box b = grid_side_faces(g, side);
     if (g->periodic[axis]) continue;
-    b.lo[axis] = side % 2 ? g->n[axis] : 0;
-    b.hi[axis] = b.lo[axis] + 1;
     FOR_BOX_SERIAL(g, b, f) out += (side % 2 ? 1 : -1) * carried_mass(sim, ice, axis, f, dt);
   }
   return out;

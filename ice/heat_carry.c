@@ -41,9 +41,7 @@ static double leaving(const struct sim *sim, const struct ice *ice, int axis)
   const struct grid *g = &sim->grid;
   double             out = 0;
   for (int high = 0; high < 2 && !g->periodic[axis]; high++) {
-    struct box side = grid_cells(g);
-    side.lo[axis] = high ? g->n[axis] : 0;
-    side.hi[axis] = side.lo[axis] + 1;
+    struct box side = grid_side_faces(g, 2 * axis + high);
     FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * carried(sim, ice, axis, f, 0);
   }
   return out * ice_heat_capacity(sim);

@@ -279,9 +279,7 @@ static double mass_out(const struct sim *sim, const struct ice *ice, int k, int 
   const struct grid *g = &sim->grid;
   double             out = 0;
   for (int high = 0; high < 2 && !g->periodic[axis]; high++) {
-    struct box side = grid_cells(g);
-    side.lo[axis] = high ? g->n[axis] : 0;
-    side.hi[axis] = side.lo[axis] + 1;
+    struct box side = grid_side_faces(g, 2 * axis + high);
     FOR_BOX_SERIAL(g, side, f) out += (high ? 1 : -1) * ice->mass_fc[(k * g->dim + axis) * g->size + f];
   }
   return out;

@@ -260,10 +260,8 @@ static void open_rooms(const struct sim *sim, struct ice *ice)
   const struct grid *g = &sim->grid;
   for (int side = 0; side < 2 * g->dim; side++) {
     int        axis = side / 2, high = side % 2;
-    struct box faces = grid_cells(g);
+    struct box faces = grid_side_faces(g, side);
     if (g->periodic[axis]) continue;
-    faces.lo[axis] = high ? g->n[axis] : 0;
-    faces.hi[axis] = faces.lo[axis] + 1;
     FOR_BOX_SERIAL(g, faces, f)
     {
       long inside = high ? f - g->stride[axis] : f, beyond = high ? f : f - g->stride[axis];

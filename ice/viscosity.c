@@ -120,10 +120,8 @@ static void push_sides(const struct sim *sim, struct ice *ice, double dt)
   const struct grid *g = &sim->grid;
   for (int side = 0; side < 2 * g->dim; side++) {
     int        axis = side / 2, high = side % 2;
-    struct box faces = grid_cells(g);
+    struct box faces = grid_side_faces(g, side);
     if (g->periodic[axis]) continue;
-    faces.lo[axis] = high ? g->n[axis] : 0;
-    faces.hi[axis] = faces.lo[axis] + 1;
     FOR_BOX_SERIAL(g, faces, f)
     for (int d = 0; d < g->dim; d++) {
       double stress = ice->mu_cc ? stress_of_eddies(sim, ice, axis, f, d) : stress_of_uniform(sim, ice, axis, f, d);
