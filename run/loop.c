@@ -408,24 +408,6 @@ static enum status write_summary(struct run *r, const char *status, double t_rea
   return summary_write(r->folder, &record);
 }
 
-static void print_timers(const struct run *r)
-{
-  double total = 0;
-  for (int i = 0; i < r->plan.n_stages; i++) total += r->seconds[i];
-  printf("%-34s %10s %12s %8s\n", "stage", "calls", "us per call", "share");
-  for (int i = 0; i < r->plan.n_stages; i++)
-    printf("%-34s %10.0f %12.3f %7.1f%%\n", r->plan.stages[i]->name, r->calls[i],
-           1e6 * r->seconds[i] / fmax(1, r->calls[i]), total > 0 ? 100 * r->seconds[i] / total : 0);
-  const struct sim *sim = r->sim;
-  double steps = fmax(1, (double)sim->step), cells = (double)sim->grid.n[0] * sim->grid.n[1] * sim->grid.n[2];
-  printf("per step %.3f us", 1e6 * total / steps);
-  if (sim->points[SET_SOLID])
-    printf(", %.1f ns per solid point", 1e9 * total / steps / (double)sim->points[SET_SOLID]->n);
-  if (sim->points[SET_WATER])
-    printf(", %.1f ns per water point", 1e9 * total / steps / (double)sim->points[SET_WATER]->n);
-  printf(", %.1f ns per cell\n", 1e9 * total / steps / cells);
-}
-
 /* the run itself, and what it leaves behind however it ends */
 static enum status finish(struct run *r, enum status how)
 {
@@ -441,7 +423,7 @@ static enum status finish(struct run *r, enum status how)
     TRY(gauges_flush(r->gauges));
     TRY(write_summary(r, message, r->sim->t, &missed));
   }
-  if (r->options->time) print_timers(r);
+  if (r->options->time) plan_print_times(&r->plan, r->sim, r->calls, r->seconds);
   if (!r->options->quiet) printf("files: %s\n", r->folder);
   if (how != OK) return FAIL(how, "%s", message);
   return missed ? FAIL(ERR_METRIC, "a metric missed its limit; see the table above or %s/summary.json", r->folder) : OK;

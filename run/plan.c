@@ -1,6 +1,9 @@
 /* Choosing and checking the stages of a scene. */
 #include "run/plan.h"
 
+#include "core/points.h"
+
+#include <math.h>
 #include <string.h>
 
 #define MODULE(name) extern const struct module module_##name;
@@ -170,4 +173,21 @@ void plan_explain(const struct plan *plan, FILE *out)
   }
   for (int i = 0; i < plan->n_left_out; i++)
     fprintf(out, "    left out         %-32s %s\n", plan->left_out[i].name, plan->left_out[i].why);
+}
+
+void plan_print_times(const struct plan *plan, const struct sim *sim, const double *calls, const double *seconds)
+{
+  double total = 0, steps = fmax(1, (double)sim->step);
+  double cells = (double)sim->grid.n[0] * sim->grid.n[1] * sim->grid.n[2];
+  for (int i = 0; i < plan->n_stages; i++) total += seconds[i];
+  printf("%-34s %10s %12s %8s\n", "stage", "calls", "us per call", "share");
+  for (int i = 0; i < plan->n_stages; i++)
+    printf("%-34s %10.0f %12.3f %7.1f%%\n", plan->stages[i]->name, calls[i], 1e6 * seconds[i] / fmax(1, calls[i]),
+           total > 0 ? 100 * seconds[i] / total : 0);
+  printf("per step %.3f us", 1e6 * total / steps);
+  if (sim->points[SET_SOLID])
+    printf(", %.1f ns per solid point", 1e9 * total / steps / (double)sim->points[SET_SOLID]->n);
+  if (sim->points[SET_WATER])
+    printf(", %.1f ns per water point", 1e9 * total / steps / (double)sim->points[SET_WATER]->n);
+  printf(", %.1f ns per cell\n", 1e9 * total / steps / cells);
 }

@@ -30,6 +30,8 @@ enum status plan_build(const struct scene *scene, struct plan *plan) MUST_CHECK;
 bool plan_uses(const struct plan *plan, const char *field);
 /** The plan as a table: number, slot, stage, reads -> writes, theory; then what was left out and why. */
 void plan_explain(const struct plan *plan, FILE *out);
+/** Prints calls [n_stages] and seconds [n_stages] of the stages so far, and the cost per step, point and cell. */
+void plan_print_times(const struct plan *plan, const struct sim *sim, const double *calls, const double *seconds);
 
 /** Grid, points, fields and initial state. The plan and the scene are borrowed. */
 enum status sim_create(const struct scene *scene, const struct plan *plan, struct sim **sim) MUST_CHECK;
