@@ -147,15 +147,16 @@ static double slip_of(const struct sim *sim, int side, long n, const double *vel
   return sqrt(square);
 }
 
-/* impulse N s on node n of a side, which changes its velocity: friction stops it, at most with its share of the force
- */
-static void rub_node(const struct sim *sim, const struct mpm *m, int side, long n, double dt, double *vel,
+/* impulse N s on node n of a side, which changes the velocity vel of its mass: friction stops it, at most with its
+ * share of the force; of several bodies each bears the force by its mass */
+static void rub_node(const struct sim *sim, const struct mpm *m, int side, long n, double dt, double mass, double *vel,
                      double impulse[3])
 {
-  double slip[3], speed = slip_of(sim, side, n, vel, slip), mass = m->mass_nc[n];
-  double most = dt * sim->scene->solid_side[side].friction * m->rub->pressed_nc[side / 2 * sim->grid.size + n];
+  double slip[3], speed = slip_of(sim, side, n, vel, slip);
   memset(impulse, 0, 3 * sizeof *impulse);
   if (!(speed > 0) || !(mass > m->mass_floor)) return;
+  double force = m->rub->pressed_nc[side / 2 * sim->grid.size + n] * (mass / m->mass_nc[n]);
+  double most = dt * sim->scene->solid_side[side].friction * force;
   double share = fmin(1, most / (mass * speed));
   for (int d = 0; d < sim->grid.dim; d++) {
     impulse[d] = -mass * share * slip[d];
@@ -168,23 +169,23 @@ void rub_nodes(const struct sim *sim, const struct mpm *m, double dt, double *ve
   for (int side = 0; m->rub && side < 2 * sim->grid.dim; side++) {
     struct box nodes = plane_of(&sim->grid, side);
     double     impulse[3];
-    if (rubs(sim->scene, side)) FOR_BOX_SERIAL(&sim->grid, nodes, n) rub_node(sim, m, side, n, dt, vel_nc, impulse);
+    if (rubs(sim->scene, side))
+      FOR_BOX_SERIAL(&sim->grid, nodes, n) rub_node(sim, m, side, n, dt, m->mass_nc[n], vel_nc, impulse);
   }
 }
 
 /* The step's friction, and its account: work on the mean of the slips at both ends of the step (3.11). */
-static void rub_side(const struct sim *sim, struct mpm *m, int side, double dt)
+static void rub_side(const struct sim *sim, struct mpm *m, const struct body_nodes *body, int side, double dt)
 {
   struct wall_numbers *wall = &m->now.wall[side];
   struct box           nodes = plane_of(&sim->grid, side);
-  const double        *vel_old = m->bodies[0].vel_nc;
-  double              *vel = m->bodies[0].vel_new_nc, speed[3];
+  double               speed[3];
   FOR_BOX_SERIAL(&sim->grid, nodes, n)
   {
     double x[3], impulse[3], before[3], after[3];
-    slip_of(sim, side, n, vel_old, before);
-    rub_node(sim, m, side, n, dt, vel, impulse);
-    slip_of(sim, side, n, vel, after);
+    slip_of(sim, side, n, body->vel_nc, before);
+    rub_node(sim, m, side, n, dt, body->mass_nc[n], body->vel_new_nc, impulse);
+    slip_of(sim, side, n, body->vel_new_nc, after);
     grid_node(&sim->grid, n, x);
     boundary_speed(&sim->scene->solid_side[side], x, sim->t + 0.5 * dt, speed);
     for (int d = 0; d < sim->grid.dim; d++) {
@@ -203,8 +204,9 @@ enum status mpm_rub_sides(struct sim *sim, double dt)
     if (!rubs(sim->scene, side)) continue;
     for (int d = 0; d < sim->grid.dim; d++)
       if (d != side / 2) m->now.wall[side].force[d] = 0; /* the normal one is mpm.watch_sides' */
-    rub_side(sim, m, side, dt);
+    for (int b = 0; b < m->n_bodies; b++) rub_side(sim, m, &m->bodies[b], side, dt);
   }
-  boundary_ghosts(&m->kernel_grid, m->sides, sim->grid.dim, sim->t + dt, m->bodies[0].vel_new_nc);
+  for (int b = 0; b < m->n_bodies; b++)
+    boundary_ghosts(&m->kernel_grid, m->sides, sim->grid.dim, sim->t + dt, m->bodies[b].vel_new_nc);
   return OK;
 }
